@@ -1,0 +1,34 @@
+# Two commands do everything: `make demo` and `make test`. The build itself is CMake's: see CMakePresets.json.
+PACKAGES := build-essential cmake ninja-build pkg-config python3 python3-glad zlib1g-dev libcjson-dev libcmocka-dev \
+	libgdcm-dev libnifti-dev libopenimageio-dev libopencv-dev libosmesa6-dev libegl-dev libegl1 libgl1-mesa-dri \
+	fonts-dejavu-core dicom3tools dcm2niix
+DEMO := demo
+
+.PHONY: all packages build demo test sanitize format clean
+
+all: build
+
+packages:
+	@sh cmake/packages.sh $(PACKAGES)
+
+build: packages
+	@cmake --preset default >build.log 2>&1 || { cat build.log; exit 1; }
+	@cmake --build --preset default
+	@rm -f build.log
+
+demo: build
+	@sh cmake/demo.sh build/angioscope $(DEMO)
+
+test: build
+	@ctest --test-dir build --output-on-failure --no-tests=error
+
+sanitize: packages
+	@cmake --preset sanitize
+	@cmake --build --preset sanitize
+	@ctest --test-dir build-sanitize --output-on-failure --no-tests=error
+
+format:
+	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i
+
+clean:
+	@rm -rf build build-sanitize build-minimal $(DEMO)

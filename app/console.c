@@ -1,0 +1,127 @@
+/* What all verbs share: progress on stderr, messages, small parsers, the clock, where presets lie. */
+#include "app/verbs.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+struct ang_app_progress {
+    ang_progress sink;
+    pthread_mutex_t lock;
+    bool quiet, terminal, open_line;
+    char what[64];
+    int shown; /* last percentage shown for `what` */
+};
+
+/* Set by the signal handler alone: there is no other way to hear of a signal. */
+static volatile sig_atomic_t interrupted;
+
+static void on_signal(int number) {
+    /* A second signal ends the program at once. */
+    signal(number, SIG_DFL);
+    interrupted = 1;
+}
+
+static bool update(void *context, const char *what, double fraction) {
+    ang_app_progress *progress = context;
+    if (progress->quiet) return !interrupted;
+    pthread_mutex_lock(&progress->lock);
+    if (strcmp(progress->what, what) != 0) {
+        if (progress->open_line) fputc('\n', stderr);
+        progress->open_line = false;
+        snprintf(progress->what, sizeof progress->what, "%s", what);
+        progress->shown = -1;
+    }
+    int percent = (int)(100 * fmin(fmax(fraction, 0), 1));
+    int step = progress->terminal ? 1 : 10;
+    if (percent / step > progress->shown / step || progress->shown < 0) {
+        bool first = progress->shown < 0;
+        progress->shown = percent;
+        if (progress->terminal) {
+            fprintf(stderr, "\r%-28s [%-40.*s] %3d %%", what, percent * 40 / 100,
+                    "########################################", percent);
+            progress->open_line = true;
+        } else if (percent >= 10 || first) {
+            fprintf(stderr, "%s: %d %%\n", what, percent / 10 * 10);
+        }
+    }
+    pthread_mutex_unlock(&progress->lock);
+    return !interrupted;
+}
+
+ang_app_progress *ang_app_progress_start(bool quiet) {
+    ang_app_progress *progress = calloc(1, sizeof *progress);
+    if (!progress) return NULL;
+    progress->sink = (ang_progress){update, progress};
+    progress->quiet = quiet;
+    progress->terminal = isatty(STDERR_FILENO);
+    progress->shown = -1;
+    pthread_mutex_init(&progress->lock, NULL);
+    struct sigaction action = {.sa_handler = on_signal};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    return progress;
+}
+
+const ang_progress *ang_app_progress_sink(const ang_app_progress *progress) {
+    return progress ? &progress->sink : NULL;
+}
+
+void ang_app_progress_end(ang_app_progress *progress) {
+    if (!progress) return;
+    if (progress->open_line) fputc('\n', stderr);
+    pthread_mutex_destroy(&progress->lock);
+    free(progress);
+}
+
+void ang_app_say(const ang_notes *notes, const char *prefix) {
+    for (size_t i = 0; i < notes->count; i++) fprintf(stderr, "%s%s\n", prefix, notes->text[i]);
+}
+
+bool ang_app_parse_dims(const char *option, const char *text, int count, int *out, ang_error *err) {
+    const char *rest = text;
+    for (int i = 0; i < count; i++) {
+        char *end;
+        long value = strtol(rest, &end, 10);
+        if (end == rest || value < 1 || value > 65536 || *end != (i + 1 < count ? 'x' : '\0'))
+            return ang_fail(err, ANG_USAGE, "--%s %s: must be %s, each from 1 to 65536", option, text,
+                            count == 2 ? "WxH" : "XxYxZ");
+        out[i] = (int)value;
+        rest = end + 1;
+    }
+    return true;
+}
+
+bool ang_app_parse_numbers(const char *option, const char *text, int least, int most, double *out, int *count,
+                           ang_error *err) {
+    const char *rest = text;
+    *count = 0;
+    while (*count < most) {
+        char *end;
+        double value = strtod(rest, &end);
+        if (end == rest || !isfinite(value)) break;
+        out[(*count)++] = value;
+        rest = end;
+        if (*rest != ',') break;
+        rest++;
+    }
+    if (*count >= least && *rest == '\0') return true;
+    return ang_fail(err, ANG_USAGE, "--%s %s: must be %d to %d numbers separated by commas", option, text, least, most);
+}
+
+double ang_app_now_ms(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
+}
+
+const char *const *ang_app_preset_folders(void) {
+    /* The source folder serves a program that was built but not installed. */
+    static const char *const folders[] = {ANG_PRESET_INSTALLED, ANG_PRESET_SOURCE, NULL};
+    return folders;
+}

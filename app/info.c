@@ -1,0 +1,41 @@
+/* angioscope info: what is in a folder or file, and what was assumed in reading it. */
+#include "app/verbs.h"
+#include "io/load.h"
+#include "io/report.h"
+
+#include <cjson/cJSON.h>
+#include <stdlib.h>
+
+int ang_app_info(const ang_options *options, ang_error *err) {
+    if (options->argument_count != 1) {
+        ang_fail(err, ANG_USAGE, "info: give one file or folder to read");
+        return ANG_USAGE;
+    }
+    ang_load_options how = {.series = options->series,
+                            .raw_dims = options->raw_dims,
+                            .raw_type = options->raw_type,
+                            .raw_spacing = options->raw_spacing,
+                            .threads = options->threads,
+                            .strict = options->strict};
+    ang_app_progress *progress = ang_app_progress_start(options->quiet);
+    ang_load_report report = {0};
+    ang_volume *volume = ang_load(options->arguments[0], &how, &report, ang_app_progress_sink(progress), err);
+    ang_app_progress_end(progress);
+    if (!volume) {
+        if (!options->quiet) ang_app_say(&report.warnings, "warning: ");
+    } else if (options->json_flag) {
+        cJSON *root = cJSON_CreateObject();
+        cJSON_AddStringToObject(root, "version", ANG_VERSION);
+        cJSON_AddItemToObject(root, "input", ang_load_report_json(volume, &report, options->keep_phi));
+        char *text = cJSON_Print(root);
+        puts(text ? text : "null");
+        free(text);
+        cJSON_Delete(root);
+    } else {
+        ang_load_report_print(stdout, volume, &report, options->keep_phi);
+    }
+    int code = volume ? ANG_OK : (int)err->code;
+    ang_load_report_clear(&report);
+    ang_volume_free(volume);
+    return code;
+}

@@ -1,0 +1,67 @@
+#include "app/verbs.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct verb_entry {
+    const char *name;
+    ang_verb verb;
+    int (*run)(const ang_options *, ang_error *);
+    const char *usage;
+    const char *summary;
+} verb_entry;
+
+static const verb_entry verbs[] = {
+    {"info", ANG_VERB_INFO, ang_app_info, "info PATH [options]", "what is in a folder or file, and what was assumed"},
+    {"render", ANG_VERB_RENDER, ang_app_render, "render PATH -o OUT.png [options]", "a picture of a volume"},
+    {"presets", ANG_VERB_PRESETS, ang_app_presets, "presets list | presets show NAME|FILE", "the presets there are"},
+    {"phantom", ANG_VERB_PHANTOM, ang_app_phantom, "phantom -o DIR [options]",
+     "a synthetic head CTA as a DICOM series"},
+    {"check", ANG_VERB_CHECK, ang_app_check, "check A.png B.png [options]", "how far two pictures differ"},
+};
+enum { verb_count = sizeof verbs / sizeof *verbs };
+
+static void print_usage(FILE *out) {
+    fprintf(out, "angioscope " ANG_VERSION ", a viewer for CT and CT-angiography volumes. Not for diagnosis.\n\n");
+    for (int i = 0; i < verb_count; i++) fprintf(out, "  angioscope %-42s %s\n", verbs[i].usage, verbs[i].summary);
+    fprintf(out, "\n'angioscope VERB --help' lists the options of a verb.\n"
+                 "Exit codes: 0 ok, 1 pictures differ, 2 usage, 3 input, 4 geometry, 5 no OpenGL, 6 memory, 7 output, "
+                 "130 interrupted.\n");
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2) {
+        print_usage(stderr);
+        return ANG_USAGE;
+    }
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+        print_usage(stdout);
+        return ANG_OK;
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        puts("angioscope " ANG_VERSION);
+        return ANG_OK;
+    }
+    for (int i = 0; i < verb_count; i++) {
+        if (strcmp(argv[1], verbs[i].name) != 0) continue;
+        ang_options options;
+        ang_error err = {0};
+        int code = ANG_USAGE;
+        if (ang_options_parse(verbs[i].verb, argc - 1, argv + 1, &options, &err)) {
+            if (options.help) {
+                printf("angioscope %s\n%s\n\n", verbs[i].usage, verbs[i].summary);
+                ang_options_help(verbs[i].verb, stdout);
+                return ANG_OK;
+            }
+            code = verbs[i].run(&options, &err);
+        }
+        if (code != ANG_OK && err.message[0]) fprintf(stderr, "angioscope: %s\n", err.message);
+        if (code == ANG_OK && (fflush(stdout) != 0 || ferror(stdout))) {
+            fprintf(stderr, "angioscope: standard output cannot be written\n");
+            return ANG_OUTPUT;
+        }
+        return code;
+    }
+    fprintf(stderr, "angioscope: there is no verb '%s'; 'angioscope --help' lists them\n", argv[1]);
+    return ANG_USAGE;
+}

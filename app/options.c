@@ -1,0 +1,223 @@
+#include "app/options.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum value_type { FLAG, TEXT, CHOICE, INTEGER, REAL } value_type;
+
+typedef struct option_spec {
+    const char *name;
+    char letter; /* one-letter form, 0: none */
+    value_type type;
+    unsigned verbs;
+    size_t offset;        /* into ang_options */
+    const char *argument; /* shown in help; for CHOICE the words, separated by | */
+    double min, max;      /* INTEGER, REAL; the ends belong to the range */
+    const char *initial;  /* as it would be typed; NULL: not given */
+    const char *unit;
+    const char *help;
+} option_spec;
+
+#define FIELD(field) offsetof(ang_options, field)
+#define READS        (ANG_VERB_INFO | ANG_VERB_RENDER)
+#define ALL          (ANG_VERB_INFO | ANG_VERB_RENDER | ANG_VERB_PRESETS | ANG_VERB_PHANTOM | ANG_VERB_CHECK)
+#define TEXT_OPTION(name, verbs, field, argument, initial, help)                                                       \
+    { name, 0, TEXT, verbs, FIELD(field), argument, 0, 0, initial, NULL, help }
+#define CHOICE_OPTION(name, field, words, initial, help)                                                               \
+    { name, 0, CHOICE, ANG_VERB_RENDER, FIELD(field), words, 0, 0, initial, NULL, help }
+#define REAL_OPTION(name, verbs, field, argument, min, max, initial, unit, help)                                       \
+    { name, 0, REAL, verbs, FIELD(field), argument, min, max, initial, unit, help }
+#define INTEGER_OPTION(name, verbs, field, min, max, initial, help)                                                    \
+    { name, 0, INTEGER, verbs, FIELD(field), "N", min, max, initial, NULL, help }
+#define FLAG_OPTION(name, letter, verbs, field, help)                                                                  \
+    { name, letter, FLAG, verbs, FIELD(field), NULL, 0, 0, NULL, NULL, help }
+
+static const option_spec table[] = {
+    {"output", 'o', TEXT, ANG_VERB_RENDER | ANG_VERB_PHANTOM, FIELD(output), "OUT", 0, 0, NULL, NULL,
+     "picture to write (.png, .tif, .exr; numbered with --frames), or the phantom's folder"},
+    TEXT_OPTION("series", READS, series, "N|UID", NULL,
+                "series to load, as numbered by info, or the end of its UID; default: the largest CT volume"),
+    TEXT_OPTION("preset", ANG_VERB_RENDER, preset, "NAME|FILE", NULL,
+                "preset: see 'presets list'; default: one that suits the input"),
+    REAL_OPTION("shift", ANG_VERB_RENDER, shift, "HU", -1e5, 1e5, "0", "HU",
+                "moves the preset's transfer function along the HU axis"),
+    CHOICE_OPTION("method", method, "auto|singlepass|reference", "auto", "rendering method"),
+    CHOICE_OPTION("mode", mode, "dvr|mip|minip|mean|iso", NULL, "what a ray shows; default: the preset's"),
+    REAL_OPTION("iso", ANG_VERB_RENDER, iso, "HU", -1e6, 1e6, NULL, "HU",
+                "iso value for --mode iso; default: the preset's"),
+    CHOICE_OPTION("shading", shading, "none|phong", NULL, "shading in mode dvr; default: the preset's"),
+    REAL_OPTION("step", ANG_VERB_RENDER, step, "VOXELS", 1e-5, 1e5, "0.5", "smallest spacings",
+                "distance of samples along a ray"),
+    TEXT_OPTION("size", ANG_VERB_RENDER, size, "WxH", "512x512", "picture size in pixels"),
+    TEXT_OPTION(
+        "view", ANG_VERB_RENDER, view, "VIEW", "anterior",
+        "anterior, posterior, left, right, superior, inferior (where the camera stands), or AZ,EL[,ROLL] in degrees"),
+    REAL_OPTION("zoom", ANG_VERB_RENDER, zoom, "X", 1e-3, 1e4, "1", NULL,
+                "magnification; at 1 all of the volume is inside the picture"),
+    CHOICE_OPTION("projection", projection, "perspective|parallel", "perspective", "projection"),
+    REAL_OPTION("fov", ANG_VERB_RENDER, fov, "DEG", 0.01, 179, "30", "degrees",
+                "vertical field of view in perspective"),
+    TEXT_OPTION("clip", ANG_VERB_RENDER, clip, "x0,x1,y0,y1,z0,z1", NULL,
+                "clip box along the index axes, in mm from the first voxel or each with % of the box"),
+    TEXT_OPTION("background", ANG_VERB_RENDER, background, "R,G,B[,A]", "0,0,0,1", "background colour, each 0..1"),
+    REAL_OPTION("termination", ANG_VERB_RENDER, termination, "A", 0.01, 1, "0.999", NULL, "stop a ray at this opacity"),
+    FLAG_OPTION("no-termination", 0, ANG_VERB_RENDER, no_termination, "follow every ray to its end"),
+    FLAG_OPTION("manual-filter", 0, ANG_VERB_RENDER, manual_filter,
+                "interpolate in the shader instead of the texture unit, to verify filtering"),
+    INTEGER_OPTION("frames", ANG_VERB_RENDER, frames, 1, 100000, "1", "number of pictures, spread over --orbit"),
+    REAL_OPTION("orbit", ANG_VERB_RENDER, orbit, "DEG", -36000, 36000, "0", "degrees",
+                "turn of the camera's azimuth over all frames"),
+    INTEGER_OPTION("repeat", ANG_VERB_RENDER, repeat, 0, 100000, "0",
+                   "time this many frames after one warm-up, spread over --orbit"),
+    CHOICE_OPTION("backend", backend, "auto|egl|osmesa|none", "auto", "where OpenGL comes from; none: without OpenGL"),
+    INTEGER_OPTION("threads", READS | ANG_VERB_PHANTOM, threads, 0, 256, "0", "processor threads; 0: all"),
+    FLAG_OPTION("annotate", 0, ANG_VERB_RENDER, annotate,
+                "draw orientation letters, a millimetre bar, preset and mode"),
+    FLAG_OPTION("strict", 0, READS, strict, "refuse input (exit code 4) where loading it gives a warning"),
+    FLAG_OPTION("keep-phi", 0, READS, keep_phi, "let what may identify a patient into the output"),
+    TEXT_OPTION("raw-dims", READS, raw_dims, "XxYxZ", NULL, "size of raw input, x fastest"),
+    TEXT_OPTION("raw-type", READS, raw_type, "TYPE", NULL, "u8, i8, u16, i16 or f32, little endian"),
+    TEXT_OPTION("raw-spacing", READS, raw_spacing, "X,Y,Z", NULL, "voxel spacing of raw input in mm; default 1,1,1"),
+    TEXT_OPTION("json", ANG_VERB_RENDER, json, "FILE|-", NULL, "write what was done, its error and its cost as JSON"),
+    FLAG_OPTION("json", 0, ANG_VERB_INFO | ANG_VERB_CHECK, json_flag, "print JSON"),
+    TEXT_OPTION("dims", ANG_VERB_PHANTOM, dims, "XxYxZ", "512x512x96", "voxels of the phantom"),
+    TEXT_OPTION("spacing", ANG_VERB_PHANTOM, spacing, "X,Y,Z", NULL,
+                "voxel spacing in mm; default: the head fills the volume (0.45,0.45,1 at 512x512x96)"),
+    REAL_OPTION("noise", ANG_VERB_PHANTOM, noise, "HU", 0, 1000, "8", "HU", "standard deviation of the noise"),
+    INTEGER_OPTION("seed", ANG_VERB_PHANTOM, seed, 0, 2147483647, "1", "seed of the noise"),
+    REAL_OPTION("threshold", ANG_VERB_CHECK, threshold, "X", 0, 255, "0", "levels",
+                "exit code 1 where the largest difference is greater"),
+    TEXT_OPTION("heat", ANG_VERB_CHECK, heat, "OUT.png", NULL, "write the differences as a heat map"),
+    FLAG_OPTION("quiet", 'q', ALL, quiet, "no progress and no messages"),
+    FLAG_OPTION("verbose", 'v', ALL, verbose, "say more on stderr"),
+    FLAG_OPTION("help", 'h', ALL, help, "print this help"),
+};
+enum { table_length = sizeof table / sizeof *table };
+
+static bool is_choice(const char *words, const char *word) {
+    size_t length = strlen(word);
+    for (const char *at = words; at; at = strchr(at, '|'), at = at ? at + 1 : NULL)
+        if (length > 0 && strncmp(at, word, length) == 0 && (at[length] == '|' || at[length] == '\0')) return true;
+    return false;
+}
+
+static bool store(const option_spec *spec, const char *text, ang_options *options, ang_error *err) {
+    void *field = (char *)options + spec->offset;
+    char *end = NULL;
+    switch (spec->type) {
+    case FLAG:
+        *(bool *)field = true;
+        return true;
+    case TEXT:
+        *(const char **)field = text;
+        return true;
+    case CHOICE:
+        if (!is_choice(spec->argument, text))
+            return ang_fail(err, ANG_USAGE, "--%s %s: must be one of %s", spec->name, text, spec->argument);
+        *(const char **)field = text;
+        return true;
+    case INTEGER:
+    case REAL:
+        break;
+    }
+    double value = strtod(text, &end);
+    bool whole = spec->type == REAL || value == floor(value);
+    if (end == text || *end || !whole || !(value >= spec->min && value <= spec->max))
+        return ang_fail(err, ANG_USAGE, "--%s %s: must be a %snumber from %g to %g%s%s", spec->name, text,
+                        spec->type == REAL ? "" : "whole ", spec->min, spec->max, spec->unit ? " " : "",
+                        spec->unit ? spec->unit : "");
+    if (spec->type == REAL)
+        *(double *)field = value;
+    else
+        *(int *)field = (int)value;
+    return true;
+}
+
+static bool set_defaults(ang_verb verb, ang_options *options, ang_error *err) {
+    *options = (ang_options){0};
+    for (int i = 0; i < table_length; i++) {
+        if (table[i].type == REAL) *(double *)((char *)options + table[i].offset) = NAN;
+        if ((table[i].verbs & verb) && table[i].initial && !store(&table[i], table[i].initial, options, err))
+            return false;
+    }
+    return true;
+}
+
+bool ang_options_parse(ang_verb verb, int argc, char **argv, ang_options *options, ang_error *err) {
+    struct option long_options[table_length + 1];
+    char letters[2 * table_length + 2] = ":";
+    int count = 0;
+    size_t used = 1;
+    for (int i = 0; i < table_length; i++) {
+        if (!(table[i].verbs & verb)) continue;
+        bool argument = table[i].type != FLAG;
+        long_options[count++] =
+            (struct option){table[i].name, argument ? required_argument : no_argument, NULL, 256 + i};
+        if (!table[i].letter) continue;
+        letters[used++] = table[i].letter;
+        if (argument) letters[used++] = ':';
+    }
+    letters[used] = '\0';
+    long_options[count] = (struct option){0};
+    if (!set_defaults(verb, options, err)) return false;
+
+    optind = 0;
+    opterr = 0;
+    int code;
+    while ((code = getopt_long(argc, argv, letters, long_options, NULL)) != -1) {
+        const char *given = optind > 0 ? argv[optind - 1] : "";
+        if (code == '?') return ang_fail(err, ANG_USAGE, "unknown option %s; --help lists what there is", given);
+        if (code == ':') return ang_fail(err, ANG_USAGE, "option %s needs a value; --help says which", given);
+        int index = code - 256;
+        for (int i = 0; i < table_length && code < 256; i++)
+            if (table[i].letter == code && (table[i].verbs & verb)) index = i;
+        if (!store(&table[index], optarg, options, err)) return false;
+    }
+    options->arguments = (const char **)argv + optind;
+    options->argument_count = argc - optind;
+    return true;
+}
+
+/* Writes words, breaking lines at column 100 and continuing at column `indent`. */
+static void print_wrapped(FILE *out, const char *text, int indent) {
+    int column = indent;
+    while (*text) {
+        int length = (int)strcspn(text, " ");
+        if (column + length > 100 && column > indent) {
+            fprintf(out, "\n%*s", indent, "");
+            column = indent;
+        }
+        fprintf(out, "%.*s", length, text);
+        text += length;
+        column += length;
+        if (*text == ' ') {
+            fputc(' ', out);
+            text++;
+            column++;
+        }
+    }
+}
+
+void ang_options_help(ang_verb verb, FILE *out) {
+    enum { indent = 34 };
+    for (int i = 0; i < table_length; i++) {
+        const option_spec *spec = &table[i];
+        if (!(spec->verbs & verb)) continue;
+        char left[128], text[512];
+        snprintf(left, sizeof left, "  %c%c%s--%s %s", spec->letter ? '-' : ' ', spec->letter ? spec->letter : ' ',
+                 spec->letter ? ", " : "  ", spec->name, spec->argument ? spec->argument : "");
+        if (strlen(left) < indent - 1)
+            fprintf(out, "%-*s", indent, left);
+        else
+            fprintf(out, "%s\n%*s", left, indent, "");
+        int used = snprintf(text, sizeof text, "%s", spec->help);
+        if (spec->initial && used < (int)sizeof text)
+            snprintf(text + used, sizeof text - (size_t)used, " (default %s%s%s)", spec->initial, spec->unit ? " " : "",
+                     spec->unit ? spec->unit : "");
+        print_wrapped(out, text, indent);
+        fputc('\n', out);
+    }
+}

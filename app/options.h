@@ -1,0 +1,39 @@
+/* Every option of the command line in one table, which drives parsing and help. */
+#ifndef ANG_APP_OPTIONS_H
+#define ANG_APP_OPTIONS_H
+
+#include "core/base/error.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Verbs as a set of bits, so that an option can belong to several. */
+typedef enum ang_verb {
+    ANG_VERB_INFO = 1,
+    ANG_VERB_RENDER = 2,
+    ANG_VERB_PRESETS = 4,
+    ANG_VERB_PHANTOM = 8,
+    ANG_VERB_CHECK = 16,
+} ang_verb;
+
+/* The values, with the table's defaults where not given. Strings are borrowed from argv or from the table. */
+typedef struct ang_options {
+    const char *output;
+    const char *series, *preset, *method, *mode, *shading, *size, *view, *projection, *clip, *background;
+    const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat;
+    double shift, iso, step, zoom, termination, fov, orbit, noise,
+        threshold; /* NaN where not given and without default */
+    int frames, repeat, threads, seed;
+    bool no_termination, manual_filter, strict, annotate, keep_phi, quiet, verbose, help, json_flag;
+    const char **arguments; /* what is not an option, NULL at the end */
+    int argument_count;
+} ang_options;
+
+/* Reads argv[first...] for one verb. Reorders argv as getopt does. False with ANG_USAGE naming the option. `options->
+ * arguments` points into argv. */
+bool ang_options_parse(ang_verb verb, int argc, char **argv, ang_options *options, ang_error *err);
+
+/* Prints the options of a verb: name, argument, default, range and help. */
+void ang_options_help(ang_verb verb, FILE *out);
+
+#endif

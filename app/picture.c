@@ -1,0 +1,124 @@
+#include "app/picture.h"
+
+#include "app/verbs.h"
+#include "core/volume/histogram.h"
+#include "io/preset.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A preset for values that are no Hounsfield units: bright things, from the histogram. */
+static ang_preset *preset_from_histogram(const ang_volume *volume, int threads, ang_error *err) {
+    ang_histogram *histogram = ang_histogram_build(volume, threads, err);
+    if (!histogram) return NULL;
+    /* Where most voxels are empty their value is background, whatever it is. */
+    uint16_t background = ang_histogram_quantile(histogram, 0.5);
+    histogram->total -= histogram->bin[background];
+    histogram->bin[background] = 0;
+    double low = ang_volume_hu(volume, ang_histogram_quantile(histogram, 0.5));
+    double high = ang_volume_hu(volume, ang_histogram_quantile(histogram, 0.995));
+    free(histogram);
+    low = fmax(low, ang_volume_hu(volume, background) + volume->slope);
+    high = fmax(high, low + volume->slope);
+    ang_transfer_point points[] = {{.hu = low, .colour = {0.55, 0.2, 0.15}, .opacity = 0},
+                                   {.hu = 0.5 * (low + high), .colour = {0.9, 0.55, 0.4}, .opacity = 0.2},
+                                   {.hu = high, .colour = {1, 0.95, 0.85}, .opacity = 0.8}};
+    ang_preset *preset = calloc(1, sizeof *preset);
+    if (!preset) {
+        ang_fail(err, ANG_LIMIT, "no memory for a preset");
+        return NULL;
+    }
+    double floor_hu = ang_volume_hu(volume, volume->minimum);
+    preset->name = strdup("from-histogram");
+    preset->modality = strdup("any");
+    preset->description = strdup("Bright structures, from the histogram of the volume.");
+    preset->version = 1;
+    preset->shading = ANG_SHADING_PHONG;
+    preset->phong = ang_phong_default;
+    preset->iso_hu = low;
+    preset->window_width = fmax(high - floor_hu, volume->slope);
+    preset->window_centre = floor_hu + preset->window_width / 2;
+    preset->transfer = ang_transfer_create(points, 3, 1, false, NULL, err);
+    if (preset->name && preset->modality && preset->description && preset->transfer) return preset;
+    ang_preset_free(preset);
+    return NULL;
+}
+
+static ang_preset *choose_preset(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
+                                 ang_notes *assumptions, ang_error *err) {
+    const char *const *folders = ang_app_preset_folders();
+    if (options->preset) return ang_preset_find(options->preset, folders, err);
+    bool hounsfield =
+        strcmp(report->format, "DICOM") == 0 && strcmp(report->series[report->chosen].modality, "CT") == 0;
+    if (!hounsfield) {
+        ang_notes_add(assumptions, "no --preset given: opacity, colour and window come from the histogram");
+        return preset_from_histogram(volume, options->threads, err);
+    }
+    const char *name = options->mode && strcmp(options->mode, "dvr") != 0 && strcmp(options->mode, "iso") != 0
+                           ? "ct-mip"
+                           : "cta-thorax";
+    ang_notes_add(assumptions, "no --preset given: %s is used", name);
+    return ang_preset_find(name, folders, err);
+}
+
+static bool read_background(const ang_options *options, double background[4], ang_error *err) {
+    int count;
+    background[3] = 1;
+    if (!ang_app_parse_numbers("background", options->background, 3, 4, background, &count, err)) return false;
+    for (int i = 0; i < 4; i++)
+        if (background[i] < 0 || background[i] > 1)
+            return ang_fail(err, ANG_USAGE, "--background %s: each number must lie in 0..1", options->background);
+    return true;
+}
+
+bool ang_picture_make(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
+                      ang_picture *picture, ang_notes *assumptions, ang_error *err) {
+    ang_scene *scene = &picture->scene;
+    *scene = ang_scene_default(volume);
+    int size[2];
+    if (!ang_app_parse_dims("size", options->size, 2, size, err)) return false;
+    scene->width = size[0];
+    scene->height = size[1];
+
+    picture->preset = choose_preset(options, volume, report, assumptions, err);
+    if (!picture->preset) return false;
+    const ang_preset *preset = picture->preset;
+    scene->transfer = preset->transfer;
+    if (options->shift != 0) {
+        picture->shifted = ang_transfer_shifted(preset->transfer, options->shift, err);
+        if (!picture->shifted) return false;
+        scene->transfer = picture->shifted;
+    }
+    scene->mode = options->mode ? (ang_mode)ang_mode_from_name(options->mode) : preset->mode;
+    scene->shading = options->shading ? (ang_shading)ang_shading_from_name(options->shading) : preset->shading;
+    scene->phong = preset->phong;
+    scene->window_centre = preset->window_centre + options->shift;
+    scene->window_width = preset->window_width;
+    scene->iso_hu = isnan(options->iso) ? preset->iso_hu + options->shift : options->iso;
+    if (scene->mode == ANG_MODE_ISO && isnan(scene->iso_hu))
+        return ang_fail(err, ANG_USAGE, "--mode iso: preset %s names no iso value; give one with --iso HU",
+                        preset->name);
+
+    picture->view = ang_view_default;
+    if (!ang_view_parse(options->view, &picture->view, err)) return false;
+    picture->view.zoom = options->zoom;
+    picture->view.projection = (ang_projection)ang_projection_from_name(options->projection);
+    picture->view.fov_deg = options->fov;
+    scene->camera = ang_camera_for(volume, &picture->view);
+    if (options->clip && !ang_scene_clip_parse(options->clip, volume, scene, err)) return false;
+    if (!read_background(options, scene->background, err)) return false;
+
+    picture->render = ang_render_options_default;
+    picture->render.step_voxels = options->step;
+    picture->render.termination = options->no_termination ? 1 : options->termination;
+    picture->render.manual_filter = options->manual_filter;
+    picture->render.threads = options->threads;
+    return true;
+}
+
+void ang_picture_clear(ang_picture *picture) {
+    ang_preset_free(picture->preset);
+    ang_transfer_free(picture->shifted);
+    *picture = (ang_picture){0};
+}

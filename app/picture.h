@@ -1,0 +1,27 @@
+/* From command-line options to the scene of a picture. */
+#ifndef ANG_APP_PICTURE_H
+#define ANG_APP_PICTURE_H
+
+#include "app/options.h"
+#include "core/base/notes.h"
+#include "core/render/method.h"
+#include "core/scene/scene.h"
+#include "core/transfer/preset.h"
+#include "io/load.h"
+
+/* A scene with what it borrows. Zero-initialise; free with ang_picture_clear. */
+typedef struct ang_picture {
+    ang_preset *preset;
+    ang_transfer *shifted; /* where --shift moved the preset's */
+    ang_view view;
+    ang_scene scene;
+    ang_render_options render;
+} ang_picture;
+
+/* Fills `picture` for this volume. Sentences about choices made for the user go to `assumptions`. False with ANG_USAGE,
+ * naming the option, or what reading the preset gives. */
+bool ang_picture_make(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
+                      ang_picture *picture, ang_notes *assumptions, ang_error *err);
+void ang_picture_clear(ang_picture *picture);
+
+#endif

@@ -1,0 +1,161 @@
+/* angioscope render: a volume becomes one or more pictures. */
+#include "app/picture.h"
+#include "app/render_json.h"
+#include "app/verbs.h"
+#include "core/render/context.h"
+#include "io/image/annotate.h"
+#include "io/image/image_io.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* All that one call holds, so that it can be let go of in one place. */
+typedef struct session {
+    const ang_options *options;
+    ang_app_progress *progress;
+    ang_volume *volume;
+    ang_load_report report;
+    ang_picture picture;
+    ang_gl *gl;
+    const ang_method *method;
+    ang_renderer *renderer;
+    ang_image image;
+    ang_render_summary summary;
+} session;
+
+static bool load(session *run, ang_error *err) {
+    const ang_options *options = run->options;
+    ang_load_options how = {.series = options->series,
+                            .raw_dims = options->raw_dims,
+                            .raw_type = options->raw_type,
+                            .raw_spacing = options->raw_spacing,
+                            .threads = options->threads,
+                            .strict = options->strict};
+    double start = ang_app_now_ms();
+    run->volume = ang_load(options->arguments[0], &how, &run->report, ang_app_progress_sink(run->progress), err);
+    run->summary.load_ms = ang_app_now_ms() - start;
+    return run->volume != NULL;
+}
+
+/* Finds the method and, where it needs one, a GL context. */
+static bool open_renderer(session *run, ang_error *err) {
+    const char *name = run->options->method;
+    ang_backend backend = (ang_backend)ang_backend_from_name(run->options->backend);
+    bool automatic = strcmp(name, "auto") == 0;
+    if (automatic) name = backend == ANG_BACKEND_NONE ? "reference" : "singlepass";
+    run->method = ang_method_find(name);
+    if (!run->method) return ang_fail(err, ANG_USAGE, "--method %s: there is no such method", name);
+    if (run->method->needs_gl) {
+        run->gl = ang_gl_create(backend, err);
+        if (!run->gl) return false;
+        run->summary.gl_backend = ang_gl_backend(run->gl);
+        run->summary.gl_renderer = ang_gl_renderer(run->gl);
+        run->summary.gl_version = ang_gl_version(run->gl);
+    }
+    double start = ang_app_now_ms();
+    run->renderer = run->method->create(run->gl, run->volume, err);
+    run->summary.upload_ms = ang_app_now_ms() - start;
+    return run->renderer != NULL;
+}
+
+static bool render_frame(session *run, double *milliseconds, ang_error *err) {
+    double start = ang_app_now_ms();
+    bool done = run->method->render(run->renderer, &run->picture.scene, &run->picture.render, &run->image,
+                                    &run->summary.stats, ang_app_progress_sink(run->progress), err);
+    *milliseconds = ang_app_now_ms() - start;
+    return done && (!run->gl || ang_gl_check(run->gl, err));
+}
+
+static void turn_camera(session *run, double degrees) {
+    ang_view view = run->picture.view;
+    view.azimuth_deg += degrees;
+    run->picture.scene.camera = ang_camera_for(run->volume, &view);
+}
+
+/* OUT.png becomes OUT-0007.png where several pictures are made. */
+static void frame_path(const char *output, int frame, int frames, char *path, size_t size) {
+    const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
+    if (frames == 1 || !dot)
+        snprintf(path, size, "%s", output);
+    else
+        snprintf(path, size, "%.*s-%04d%s", (int)(dot - output), output, frame + 1, dot);
+}
+
+static bool write_picture(session *run, const char *path, ang_error *err) {
+    if (run->options->annotate) {
+        ang_annotation annotation = ang_annotation_make(&run->picture.scene, run->picture.preset->name);
+        if (!ang_image_annotate(&run->image, &annotation, &run->summary.warnings, err)) return false;
+    }
+    return ang_image_write(path, &run->image, run->picture.scene.background, err);
+}
+
+static bool render_all(session *run, ang_error *err) {
+    const ang_options *options = run->options;
+    if (!ang_image_create(&run->image, run->picture.scene.width, run->picture.scene.height, err)) return false;
+    for (int frame = 0; frame < options->frames; frame++) {
+        char path[4096];
+        double milliseconds;
+        turn_camera(run, options->orbit * frame / options->frames);
+        if (!render_frame(run, &milliseconds, err)) return false;
+        if (frame == 0) run->summary.first_frame_ms = milliseconds;
+        frame_path(options->output, frame, options->frames, path, sizeof path);
+        if (!write_picture(run, path, err)) return false;
+        if (!options->quiet && options->verbose) fprintf(stderr, "%s: %.0f ms\n", path, milliseconds);
+    }
+    return true;
+}
+
+static bool time_frames(session *run, ang_error *err) {
+    int count = run->options->repeat;
+    if (count < 1) return true;
+    double *milliseconds = calloc((size_t)count, sizeof *milliseconds);
+    if (!milliseconds) return ang_fail(err, ANG_LIMIT, "no memory for %d times", count);
+    bool done = true;
+    for (int frame = 0; frame < count && done; frame++) {
+        turn_camera(run, run->options->orbit * frame / count);
+        done = render_frame(run, &milliseconds[frame], err);
+    }
+    if (done) ang_render_summary_times(&run->summary, milliseconds, count);
+    free(milliseconds);
+    return done;
+}
+
+static bool run_all(session *run, ang_error *err) {
+    const ang_options *options = run->options;
+    if (!ang_image_writable(options->output, err) || !load(run, err)) return false;
+    if (!ang_picture_make(options, run->volume, &run->report, &run->picture, &run->report.assumptions, err))
+        return false;
+    if (!open_renderer(run, err) || !render_all(run, err) || !time_frames(run, err)) return false;
+    if (!options->json) return true;
+    return ang_render_json_write(options->json, run->volume, &run->report, &run->picture, run->method, &run->summary,
+                                 options->keep_phi, err);
+}
+
+int ang_app_render(const ang_options *options, ang_error *err) {
+    if (options->argument_count != 1) {
+        ang_fail(err, ANG_USAGE, "render: give one file or folder to read");
+        return ANG_USAGE;
+    }
+    if (!options->output) {
+        ang_fail(err, ANG_USAGE, "render: give a picture to write with -o OUT.png");
+        return ANG_USAGE;
+    }
+    session run = {.options = options, .progress = ang_app_progress_start(options->quiet)};
+    bool done = run_all(&run, err);
+    ang_app_progress_end(run.progress);
+    if (!options->quiet) {
+        ang_app_say(&run.report.warnings, "warning: ");
+        ang_app_say(&run.summary.warnings, "warning: ");
+        if (options->verbose) ang_app_say(&run.report.assumptions, "note: ");
+    }
+    if (run.renderer) run.method->destroy(run.renderer);
+    if (run.gl) ang_gl_destroy(run.gl);
+    ang_image_clear(&run.image);
+    ang_picture_clear(&run.picture);
+    ang_notes_clear(&run.summary.warnings);
+    ang_load_report_clear(&run.report);
+    ang_volume_free(run.volume);
+    return done ? ANG_OK : (int)err->code;
+}

@@ -1,0 +1,137 @@
+#include "app/render_json.h"
+
+#include "io/replace.h"
+#include "io/report.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void ang_render_summary_times(ang_render_summary *summary, double *milliseconds, int count) {
+    qsort(milliseconds, (size_t)count, sizeof *milliseconds, ascending);
+    summary->timed_frames = count;
+    summary->min_ms = milliseconds[0];
+    summary->max_ms = milliseconds[count - 1];
+    summary->median_ms = 0.5 * (milliseconds[(count - 1) / 2] + milliseconds[count / 2]);
+}
+
+static void add_number(cJSON *object, const char *name, double value) {
+    if (isfinite(value))
+        cJSON_AddNumberToObject(object, name, value);
+    else
+        cJSON_AddNullToObject(object, name);
+}
+
+static void add_left_out(cJSON *list, const char *what, const char *why) {
+    cJSON *entry = cJSON_CreateObject();
+    cJSON_AddStringToObject(entry, "what", what);
+    cJSON_AddStringToObject(entry, "why", why);
+    cJSON_AddItemToArray(list, entry);
+}
+
+static cJSON *plan_json(const ang_volume *volume, const ang_picture *picture, const ang_method *method,
+                        const ang_render_summary *summary) {
+    const ang_scene *scene = &picture->scene;
+    cJSON *plan = cJSON_CreateObject();
+    cJSON_AddStringToObject(plan, "method", method->name);
+    cJSON_AddStringToObject(plan, "mode", ang_mode_name(scene->mode));
+    cJSON_AddStringToObject(plan, "shading", ang_shading_name(scene->shading));
+    cJSON_AddStringToObject(plan, "projection", ang_projection_name(scene->camera.projection));
+    cJSON_AddStringToObject(plan, "preset", picture->preset->name);
+    if (summary->gl_backend) {
+        cJSON_AddStringToObject(plan, "backend", summary->gl_backend);
+        cJSON_AddStringToObject(plan, "gl_renderer", summary->gl_renderer);
+        cJSON_AddStringToObject(plan, "gl_version", summary->gl_version);
+    }
+    bool coloured = scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO;
+    bool shaded = scene->mode == ANG_MODE_ISO || (scene->mode == ANG_MODE_DVR && scene->shading == ANG_SHADING_PHONG);
+    bool weighted = scene->mode == ANG_MODE_MEAN && volume->padding;
+    cJSON *uses = cJSON_AddArrayToObject(plan, "uses");
+    cJSON *left_out = cJSON_AddArrayToObject(plan, "left_out");
+    cJSON_AddItemToArray(uses, cJSON_CreateString(method->title));
+    if (shaded)
+        cJSON_AddItemToArray(uses, cJSON_CreateString("gradients by central differences, Phong"));
+    else
+        add_left_out(left_out, "gradient lookups",
+                     coloured ? "shading is none" : "this mode shows values, not surfaces");
+    if (weighted)
+        cJSON_AddItemToArray(uses, cJSON_CreateString("weights that leave padding out of the mean"));
+    else
+        add_left_out(left_out, "padding weights", volume->padding ? "only mode mean leaves padding out" : "no padding");
+    if (coloured)
+        cJSON_AddItemToArray(uses, cJSON_CreateString("transfer function"));
+    else
+        add_left_out(left_out, "transfer function", "this mode shows values through the window");
+    add_left_out(left_out, "octree", "this method skips nothing");
+    if (!method->needs_gl) add_left_out(left_out, "OpenGL", "this method needs none");
+    add_left_out(left_out, "window system", "headless");
+    return plan;
+}
+
+static cJSON *error_json(const ang_volume *volume, const ang_picture *picture, const ang_method *method) {
+    cJSON *error = cJSON_CreateObject();
+    const ang_scene *scene = &picture->scene;
+    bool truth = strcmp(method->name, "reference") == 0;
+    /* The step's error is not estimated yet: null, not zero. */
+    add_number(error, "estimate", truth ? 0 : NAN);
+    add_number(error, "bound", truth ? 0 : NAN);
+    add_number(error, "step_mm", truth ? NAN : picture->render.step_voxels * ang_volume_smallest_spacing(volume));
+    bool terminated = !truth && scene->mode == ANG_MODE_DVR;
+    /* numerics.md: |dC| <= (1 - a) max c, in levels; shading adds at most its specular part. */
+    double brightest = scene->shading == ANG_SHADING_PHONG
+                           ? fmax(1, scene->phong.ambient + scene->phong.diffuse + scene->phong.specular)
+                           : 1;
+    add_number(error, "termination_bound", terminated ? 255 * brightest * (1 - picture->render.termination) : 0);
+    return error;
+}
+
+static cJSON *time_json(const ang_render_summary *summary) {
+    cJSON *time = cJSON_CreateObject();
+    add_number(time, "load", summary->load_ms);
+    add_number(time, "octree", NAN);
+    add_number(time, "upload", summary->upload_ms);
+    add_number(time, "first_frame", summary->first_frame_ms);
+    bool timed = summary->timed_frames > 0;
+    add_number(time, "frame_median", timed ? summary->median_ms : NAN);
+    add_number(time, "frame_min", timed ? summary->min_ms : NAN);
+    add_number(time, "frame_max", timed ? summary->max_ms : NAN);
+    cJSON_AddNumberToObject(time, "frames", summary->timed_frames);
+    return time;
+}
+
+bool ang_render_json_write(const char *path, const ang_volume *volume, const ang_load_report *report,
+                           const ang_picture *picture, const ang_method *method, const ang_render_summary *summary,
+                           bool keep_phi, ang_error *err) {
+    cJSON *root = cJSON_CreateObject();
+    cJSON_AddStringToObject(root, "version", ANG_VERSION);
+    cJSON_AddItemToObject(root, "input", ang_load_report_json(volume, report, keep_phi));
+    cJSON_AddItemToObject(root, "plan", plan_json(volume, picture, method, summary));
+    cJSON_AddItemToObject(root, "error", error_json(volume, picture, method));
+    cJSON_AddItemToObject(root, "time_ms", time_json(summary));
+    cJSON *counts = cJSON_AddObjectToObject(root, "counts");
+    add_number(counts, "samples", (double)summary->stats.samples);
+    cJSON_AddNumberToObject(counts, "bricks_drawn", 1);
+    cJSON_AddNumberToObject(counts, "bricks_total", 1);
+    add_number(counts, "fragments", (double)summary->stats.fragments);
+    cJSON *warnings = cJSON_AddArrayToObject(root, "warnings");
+    for (size_t i = 0; i < summary->warnings.count; i++)
+        cJSON_AddItemToArray(warnings, cJSON_CreateString(summary->warnings.text[i]));
+
+    char *text = cJSON_Print(root);
+    cJSON_Delete(root);
+    if (!text) return ang_fail(err, ANG_LIMIT, "no memory for the JSON");
+    bool done = true;
+    if (strcmp(path, "-") == 0)
+        done = puts(text) >= 0 || ang_fail(err, ANG_OUTPUT, "standard output cannot be written");
+    else
+        done = ang_file_replace(path, text, strlen(text), err);
+    free(text);
+    return done;
+}

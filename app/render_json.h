@@ -1,0 +1,26 @@
+/* What `render --json` says: input, plan, error, cost. */
+#ifndef ANG_APP_RENDER_JSON_H
+#define ANG_APP_RENDER_JSON_H
+
+#include "app/picture.h"
+#include "core/render/method.h"
+
+/* Costs of one call. Times in ms; NaN or 0 where not measured. Borrows the gl strings; owns `warnings`. */
+typedef struct ang_render_summary {
+    double load_ms, upload_ms, first_frame_ms;
+    int timed_frames; /* frames behind the three below */
+    double median_ms, min_ms, max_ms;
+    ang_frame_stats stats;
+    const char *gl_backend, *gl_renderer, *gl_version; /* NULL without GL */
+    ang_notes warnings;
+} ang_render_summary;
+
+/* Sorts `milliseconds` and fills the frame times. */
+void ang_render_summary_times(ang_render_summary *summary, double *milliseconds, int count);
+
+/* Writes the JSON to a file (atomically) or, for "-", to stdout. False with ANG_OUTPUT, ANG_LIMIT. */
+bool ang_render_json_write(const char *path, const ang_volume *volume, const ang_load_report *report,
+                           const ang_picture *picture, const ang_method *method, const ang_render_summary *summary,
+                           bool keep_phi, ang_error *err);
+
+#endif

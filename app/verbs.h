@@ -1,0 +1,37 @@
+/* One function a verb of the command line, and what they share. Each returns an exit code. */
+#ifndef ANG_APP_VERBS_H
+#define ANG_APP_VERBS_H
+
+#include "app/options.h"
+#include "core/base/error.h"
+#include "core/base/notes.h"
+#include "core/base/progress.h"
+
+int ang_app_info(const ang_options *options, ang_error *err);
+int ang_app_render(const ang_options *options, ang_error *err);
+int ang_app_presets(const ang_options *options, ang_error *err);
+int ang_app_phantom(const ang_options *options, ang_error *err);
+int ang_app_check(const ang_options *options, ang_error *err);
+
+/* Where presets are looked for, NULL at the end; valid until the program ends. */
+const char *const *ang_app_preset_folders(void);
+
+/* Progress on stderr: a bar on a terminal, else a line every 10 %; asks for a stop after SIGINT or SIGTERM.
+ * NULL-context where `quiet`. */
+typedef struct ang_app_progress ang_app_progress;
+ang_app_progress *ang_app_progress_start(bool quiet);
+const ang_progress *ang_app_progress_sink(const ang_app_progress *progress);
+/* Ends the line on a terminal and frees. */
+void ang_app_progress_end(ang_app_progress *progress);
+
+/* Prints sentences to stderr, each with `prefix`. */
+void ang_app_say(const ang_notes *notes, const char *prefix);
+/* "AxB" or "AxBxC" into `count` whole numbers >= 1. */
+bool ang_app_parse_dims(const char *option, const char *text, int count, int *out, ang_error *err);
+/* Numbers separated by commas: at least `least`, at most `most`; how many came goes to *count. */
+bool ang_app_parse_numbers(const char *option, const char *text, int least, int most, double *out, int *count,
+                           ang_error *err);
+/* Milliseconds of a steady clock. */
+double ang_app_now_ms(void);
+
+#endif

@@ -1,0 +1,22 @@
+/* The truth that every method is judged by: double precision, every cell boundary and every knot of the transfer
+ * function on the ray found, each piece between them integrated adaptively to 1e-10 (with Phong 1e-6); maxima and iso
+ * hits exact per cell. No octree and no tables, so that it shares no mistake with them. Conventions: DESIGN.md, "Scene
+ * conventions". */
+#ifndef ANG_CPU_REFERENCE_H
+#define ANG_CPU_REFERENCE_H
+
+#include "core/scene/scene.h"
+
+#include <stdint.h>
+
+typedef struct ang_reference ang_reference;
+
+/* Borrows volume and scene, which must outlive it and not change. NULL with ANG_LIMIT, ANG_GEOMETRY. */
+ang_reference *ang_reference_create(const ang_volume *volume, const ang_scene *scene, ang_error *err);
+void ang_reference_free(ang_reference *reference);
+
+/* The colour through picture coordinates (x, y) (pixel centres at + 0.5): premultiplied RGBA before the background, not
+ * clipped. Adds the evaluations of the field to *samples where not NULL. Thread safe. */
+void ang_reference_pixel(const ang_reference *reference, double x, double y, double rgba[4], uint64_t *samples);
+
+#endif

@@ -1,0 +1,43 @@
+/* What the context backends share; only context*.c include it. */
+#ifndef ANG_RENDER_CONTEXT_PRIVATE_H
+#define ANG_RENDER_CONTEXT_PRIVATE_H
+
+#include "core/render/context.h"
+
+#include <stddef.h>
+
+/* Where functions of the current context are found. */
+typedef void (*ang_gl_function)(void);
+typedef ang_gl_function (*ang_gl_lookup)(const char *name);
+
+struct ang_gl {
+    const char *words;       /* the backend in words, static */
+    void *state;             /* of the backend */
+    void (*close)(ang_gl *); /* releases the context and `state` */
+    char renderer[256];
+    char version[128];
+    char complaint[512]; /* the first debug message of type error since the last check; empty: none */
+    int max_texture_3d;
+    int max_texture_buffer;
+};
+
+/* Why each attempt failed, for the message when none works; cut off where it is full. */
+typedef struct ang_gl_attempts {
+    char text[768];
+} ang_gl_attempts;
+void ang_gl_attempt_failed(ang_gl_attempts *attempts, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* After a backend made its context current: loads the functions, refuses GL below 4.3 and reads what it is. The reason
+ * goes to `attempts`, led by `who`. */
+bool ang_gl_load(ang_gl *gl, ang_gl_lookup lookup, const char *who, ang_gl_attempts *attempts);
+/* Whether GL_RENDERER names a rasteriser on the CPU. */
+bool ang_gl_is_software(const ang_gl *gl);
+
+typedef enum ang_egl_kind { ANG_EGL_GPU, ANG_EGL_SOFTWARE } ang_egl_kind;
+
+/* Each makes a context current and loaded, and fills words, state and close; or leaves `gl` closed, nothing current and
+ * the reason in `attempts`. Not thread safe. */
+bool ang_gl_open_egl(ang_gl *gl, ang_egl_kind kind, ang_gl_attempts *attempts);
+bool ang_gl_open_osmesa(ang_gl *gl, ang_gl_attempts *attempts);
+
+#endif

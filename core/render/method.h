@@ -1,0 +1,54 @@
+/* What every rendering method is: one interface, so that programs, tests and reports go over all of them alike. */
+#ifndef ANG_RENDER_METHOD_H
+#define ANG_RENDER_METHOD_H
+
+#include "core/base/progress.h"
+#include "core/scene/image.h"
+#include "core/scene/scene.h"
+
+#include <stdint.h>
+
+/* How a picture is made, as far as it does not change what it shows. */
+typedef struct ang_render_options {
+    double step_voxels; /* sampling distance as a multiple of the smallest spacing; default 0.5 */
+    double termination; /* stop a ray at this accumulated opacity, 0 < a <= 1; 1: never; default 0.999 */
+    bool manual_filter; /* interpolate by eight fetches instead of the texture unit, to verify filtering; default false
+                         */
+    int threads;        /* 0: all */
+} ang_render_options;
+extern const ang_render_options ang_render_options_default;
+
+/* What one frame did. */
+typedef struct ang_frame_stats {
+    uint64_t samples;   /* field evaluations along rays, shading left out */
+    uint64_t fragments; /* rays or fragments shaded */
+} ang_frame_stats;
+
+typedef struct ang_gl ang_gl;             /* core/render/context.h */
+typedef struct ang_renderer ang_renderer; /* opaque, one per method and volume */
+
+/* A method. All functions of one renderer are called from one thread, for GL methods the one where the context is
+ * current. */
+typedef struct ang_method {
+    const char *name;   /* as in --method */
+    const char *title;  /* one line */
+    const char *source; /* paper */
+    bool needs_gl;
+    /* A renderer of this volume, which must outlive it; `gl` is NULL where needs_gl is false. NULL with ANG_GL,
+     * ANG_LIMIT. */
+    ang_renderer *(*create)(ang_gl *gl, const ang_volume *volume, ang_error *err);
+    /* Renders into `image` (created by the caller with the scene's size). False with an error; ANG_INTERRUPTED where
+     * `progress` asked for it. `stats` may be NULL. */
+    bool (*render)(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
+                   ang_frame_stats *stats, const ang_progress *progress, ang_error *err);
+    void (*destroy)(ang_renderer *renderer);
+} ang_method;
+
+/* All methods, NULL at the end; and the one of a name or NULL. */
+const ang_method *const *ang_methods(void);
+const ang_method *ang_method_find(const char *name);
+
+extern const ang_method ang_method_reference;
+extern const ang_method ang_method_singlepass;
+
+#endif

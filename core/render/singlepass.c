@@ -1,0 +1,233 @@
+#include "core/render/method.h"
+
+#include "core/base/memory.h"
+#include "core/render/program.h"
+#include "core/render/scene_uniforms.h"
+#include "core/render/table_texture.h"
+#include "core/render/target.h"
+#include "core/render/volume_texture.h"
+
+#include <glad/gl.h>
+#include <shaders.h>
+#include <stdlib.h>
+
+enum {
+    UNIT_TABLE = 0,
+    UNIT_FIELD = 1, /* and the weight after it */
+    BAND_ROWS = 64, /* rows drawn at once: drivers stop draws that take seconds, and users want to */
+};
+
+/* llvmpipe leaves loops, without a word, after 65535 rounds of all loops of a shader together, and runs the two halves
+ * of a block of pixels in one such count; so a ray takes at most
+ * this many samples, with a step far below what float resolves. */
+static const double most_samples = 32000;
+
+struct ang_renderer {
+    ang_gl *gl;
+    const ang_volume *volume;
+    ang_volume_texture field;
+    ang_table_texture table;
+    ang_programs programs;
+    ang_target target;
+    GLuint vertices; /* no attributes, but a draw needs one bound */
+};
+
+static void destroy(ang_renderer *renderer) {
+    if (!renderer) return;
+    if (renderer->vertices) glDeleteVertexArrays(1, &renderer->vertices);
+    ang_target_destroy(&renderer->target);
+    ang_programs_clear(&renderer->programs);
+    ang_table_texture_destroy(&renderer->table);
+    ang_volume_texture_destroy(&renderer->field);
+    free(renderer);
+}
+
+static ang_renderer *create(ang_gl *gl, const ang_volume *volume, ang_error *err) {
+    if (!gl) {
+        ang_fail(err, ANG_GL, "--method singlepass needs OpenGL: choose another --backend, or --method cpu");
+        return NULL;
+    }
+    ang_renderer *renderer = ang_alloc(1, sizeof *renderer, "the single-pass renderer", err);
+    if (!renderer) return NULL;
+    renderer->gl = gl;
+    renderer->volume = volume;
+    if (!ang_volume_texture_create(&renderer->field, gl, volume, err)) {
+        destroy(renderer);
+        return NULL;
+    }
+    glGenVertexArrays(1, &renderer->vertices);
+    return renderer;
+}
+
+static bool needs_table(const ang_scene *scene) { return scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO; }
+
+static bool needs_phong(const ang_scene *scene) {
+    return scene->mode == ANG_MODE_ISO || (scene->mode == ANG_MODE_DVR && scene->shading == ANG_SHADING_PHONG);
+}
+
+static void add_shading(ang_shader_source *source, const ang_scene *scene) {
+    ANG_SHADER_ADD(source, transfer);
+    if (needs_phong(scene)) {
+        ANG_SHADER_ADD(source, gradient);
+        ANG_SHADER_ADD(source, shade_phong);
+    } else {
+        ANG_SHADER_ADD(source, shade_none);
+    }
+}
+
+static void add_weight(ang_shader_source *source, const ang_volume *volume, bool manual) {
+    if (!volume->padding)
+        ANG_SHADER_ADD(source, weight_one);
+    else if (manual)
+        ANG_SHADER_ADD(source, weight_manual);
+    else
+        ANG_SHADER_ADD(source, weight_hardware);
+}
+
+/* Only what the scene needs is in the program. */
+static ang_shader_source compose(const ang_scene *scene, const ang_volume *volume, bool manual, bool counting) {
+    ang_shader_source source = {.count = 0};
+    ANG_SHADER_ADD(&source, version);
+    ANG_SHADER_ADD(&source, ray);
+    ANG_SHADER_ADD(&source, lattice);
+    ANG_SHADER_ADD(&source, field);
+    if (manual)
+        ANG_SHADER_ADD(&source, field_manual);
+    else
+        ANG_SHADER_ADD(&source, field_hardware);
+    if (needs_table(scene))
+        add_shading(&source, scene);
+    else
+        ANG_SHADER_ADD(&source, window);
+    switch (scene->mode) {
+    case ANG_MODE_DVR:
+        ANG_SHADER_ADD(&source, opacity);
+        ANG_SHADER_ADD(&source, march_dvr);
+        break;
+    case ANG_MODE_MIP:
+        ANG_SHADER_ADD(&source, march_mip);
+        break;
+    case ANG_MODE_MINIP:
+        ANG_SHADER_ADD(&source, march_minip);
+        break;
+    case ANG_MODE_MEAN:
+        add_weight(&source, volume, manual);
+        ANG_SHADER_ADD(&source, march_mean);
+        break;
+    case ANG_MODE_ISO:
+        ANG_SHADER_ADD(&source, march_iso);
+        break;
+    }
+    if (counting)
+        ANG_SHADER_ADD(&source, picture_counted);
+    else
+        ANG_SHADER_ADD(&source, picture);
+    return source;
+}
+
+/* Textures and target for this scene; 0 with an error, or the program. */
+static GLuint prepare(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, bool counting,
+                      ang_error *err) {
+    const ang_volume *volume = renderer->volume;
+    if (needs_table(scene)) {
+        if (!scene->transfer) {
+            ang_fail(err, ANG_USAGE, "--mode %s needs a transfer function: give a --preset",
+                     ang_mode_name(scene->mode));
+            return 0;
+        }
+        if (!ang_table_texture_update(&renderer->table, renderer->gl, scene->transfer, volume, err)) return 0;
+    }
+    if (scene->mode == ANG_MODE_MEAN && !ang_volume_texture_add_weight(&renderer->field, renderer->gl, volume, err))
+        return 0;
+    if (!ang_target_resize(&renderer->target, renderer->gl, scene->width, scene->height, counting, err)) return 0;
+    ang_shader_source vertex = {.count = 0};
+    ANG_SHADER_ADD(&vertex, version);
+    ANG_SHADER_ADD(&vertex, triangle);
+    ang_shader_source fragment = compose(scene, volume, options->manual_filter, counting);
+    return ang_programs_get(&renderer->programs, "singlepass", &vertex, &fragment, err);
+}
+
+static void set_uniforms(const ang_renderer *renderer, GLuint program, const ang_scene *scene,
+                         const ang_render_options *options, const ang_ray_frame *frame) {
+    const ang_volume *volume = renderer->volume;
+    ang_uniforms_ray(program, frame);
+    ang_uniforms_field(program, &renderer->field, volume, frame, UNIT_FIELD);
+    double step = options->step_voxels * ang_volume_smallest_spacing(volume);
+    step = fmax(step, 2 * ang_volume_half_diagonal(volume) / most_samples);
+    ang_uniform_float(program, "lattice_step", step);
+    if (needs_table(scene)) ang_table_texture_bind(&renderer->table, program, UNIT_TABLE);
+    if (needs_phong(scene)) ang_uniforms_phong(program, volume, scene, frame);
+    if (!needs_table(scene)) ang_uniforms_window(program, volume, scene);
+    if (scene->mode == ANG_MODE_DVR) ang_uniform_float(program, "termination", options->termination);
+    if (scene->mode == ANG_MODE_MEAN) {
+        double padding = volume->padding ? ang_volume_padding_value(volume) : 0;
+        ang_uniform_float(program, "mean_padding", padding);
+        ang_uniform_float(program, "mean_empty", ang_volume_stored(volume, -1000));
+    }
+    if (scene->mode == ANG_MODE_ISO) {
+        double colour[3];
+        ang_transfer_colour(scene->transfer, scene->iso_hu, colour);
+        ang_uniform_float(program, "iso_stored", ang_volume_stored(volume, scene->iso_hu));
+        ang_uniform_vec3(program, "iso_colour", (ang_vec3){colour[0], colour[1], colour[2]});
+    }
+}
+
+/* Draws and reads the picture band by band. */
+static bool draw_bands(ang_renderer *renderer, ang_image *image, ang_frame_stats *stats, const ang_progress *progress,
+                       ang_error *err) {
+    const ang_target *target = &renderer->target;
+    float *row = NULL;
+    if (stats) {
+        row = ang_alloc((size_t)target->width, sizeof *row, "a row of counts", err);
+        if (!row) return false;
+    }
+    bool going = true;
+    for (int first = 0; first < target->height && going; first += BAND_ROWS) {
+        int rows = target->height - first < BAND_ROWS ? target->height - first : BAND_ROWS;
+        glScissor(0, first, target->width, rows);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        ang_target_read(target, first, rows, image);
+        if (stats) ang_target_read_counts(target, first, rows, row, &stats->samples, &stats->fragments);
+        going = ang_progress_update(progress, "rendering", (double)(first + rows) / target->height);
+    }
+    free(row);
+    return going || ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering");
+}
+
+static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
+                   ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
+    if (!(options->step_voxels > 0))
+        return ang_fail(err, ANG_USAGE, "--step %g: give a positive multiple of the smallest spacing",
+                        options->step_voxels);
+    ang_ray_frame frame;
+    if (!ang_ray_frame_make(renderer->volume, scene, &frame, err)) return false;
+    GLuint program = prepare(renderer, scene, options, stats != NULL, err);
+    if (!program) return false;
+    if (stats) *stats = (ang_frame_stats){0};
+
+    glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer);
+    glViewport(0, 0, renderer->target.width, renderer->target.height);
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_SCISSOR_TEST);
+    glBindVertexArray(renderer->vertices);
+    glUseProgram(program);
+    set_uniforms(renderer, program, scene, options, &frame);
+    bool ok = draw_bands(renderer, image, stats, progress, err);
+    glUseProgram(0);
+    glBindVertexArray(0);
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return ok && ang_gl_check(renderer->gl, err);
+}
+
+const ang_method ang_method_singlepass = {
+    .name = "singlepass",
+    .title = "one fragment-shader loop over the box, no skipping: the baseline that others are compared with",
+    .source = "DESIGN.md, Rendering methods; numerics.md",
+    .needs_gl = true,
+    .create = create,
+    .render = render,
+    .destroy = destroy,
+};

@@ -1,0 +1,28 @@
+/* A transfer function on the GL side. Include only within core/render/ and its tests. */
+#ifndef ANG_RENDER_TABLE_TEXTURE_H
+#define ANG_RENDER_TABLE_TEXTURE_H
+
+#include "core/render/context.h"
+#include "core/render/program.h"
+#include "core/transfer/tables.h"
+
+/* The entries of ang_transfer_tables as a buffer texture of GL_RGBA32F. Zero-initialise; owns all. */
+typedef struct ang_table_texture {
+    unsigned buffer, texture;
+    ang_transfer_tables *tables; /* NULL before the first update */
+    ang_transfer_point *points;  /* what they were made from */
+    size_t count;
+    double unit_distance;
+    bool by_extinction;
+} ang_table_texture;
+
+/* Makes and uploads the tables for this volume where `transfer` is not what they were made from. False with ANG_LIMIT
+ * or ANG_GL. */
+bool ang_table_texture_update(ang_table_texture *texture, ang_gl *gl, const ang_transfer *transfer,
+                              const ang_volume *volume, ang_error *err);
+/* Deletes everything. The context must be current. */
+void ang_table_texture_destroy(ang_table_texture *texture);
+/* Sets the uniforms of transfer.glsl and binds the table to texture unit `unit`. */
+void ang_table_texture_bind(const ang_table_texture *texture, unsigned program, int unit);
+
+#endif

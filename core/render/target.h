@@ -1,0 +1,28 @@
+/* A float framebuffer to render into and read from. Include only within core/render/ and its tests. */
+#ifndef ANG_RENDER_TARGET_H
+#define ANG_RENDER_TARGET_H
+
+#include "core/render/context.h"
+#include "core/scene/image.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* RGBA32F in attachment 0 and, where counting, R32F in attachment 1: field evaluations of each pixel. GL's row j is the
+ * picture's row j from the top, so that nothing needs turning over. Zero-initialise. */
+typedef struct ang_target {
+    unsigned framebuffer;
+    unsigned colour, counts; /* renderbuffers; counts 0 where not counting */
+    int width, height;
+} ang_target;
+
+/* Makes the target fit; keeps it where it does already. False with ANG_LIMIT or ANG_GL. */
+bool ang_target_resize(ang_target *target, ang_gl *gl, int width, int height, bool counting, ang_error *err);
+void ang_target_destroy(ang_target *target);
+/* Reads rows [first, first + rows) into the same rows of `image`. */
+void ang_target_read(const ang_target *target, int first, int rows, ang_image *image);
+/* Adds up the counts of rows [first, first + rows): their sum, and the number of pixels above 0. `row` has room for
+ * `width` floats. */
+void ang_target_read_counts(const ang_target *target, int first, int rows, float *row, uint64_t *sum, uint64_t *pixels);
+
+#endif

@@ -1,0 +1,75 @@
+#include "core/scene/annotation.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const double further_letter = 0.38; /* tan(20.8 degrees) */
+static const double bar_share = 0.2;       /* of the picture's width */
+
+ang_letters ang_letters_make(ang_vec3 direction) {
+    static const char negative[3] = {'R', 'A', 'F'}, positive[3] = {'L', 'P', 'H'};
+    ang_letters letters = {{0}};
+    double size[3];
+    int order[3] = {0, 1, 2};
+    for (int i = 0; i < 3; i++) {
+        size[i] = fabs(ang_vec3_at(direction, i));
+        if (!isfinite(size[i])) return letters;
+    }
+    for (int i = 0; i < 2; i++) {
+        for (int j = 2; j > i; j--) {
+            if (size[order[j]] > size[order[j - 1]]) {
+                int swapped = order[j];
+                order[j] = order[j - 1];
+                order[j - 1] = swapped;
+            }
+        }
+    }
+    double largest = size[order[0]];
+    for (int i = 0; i < 3 && largest > 0; i++) {
+        if (i > 0 && size[order[i]] <= further_letter * largest) break;
+        letters.text[i] = ang_vec3_at(direction, order[i]) < 0 ? negative[order[i]] : positive[order[i]];
+    }
+    return letters;
+}
+
+double ang_round_length(double limit) {
+    if (!(limit > 0) || !isfinite(limit)) return 0;
+    double power = pow(10, floor(log10(limit)));
+    /* log10 may land beside a whole number: start one decade up. */
+    static const double steps[] = {10, 5, 2, 1, 0.5};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        if (steps[i] * power <= limit * (1 + 1e-12)) return steps[i] * power;
+    }
+    return 0;
+}
+
+static double scale_at_centre(const ang_scene *scene) {
+    const ang_camera *camera = &scene->camera;
+    double height_mm = camera->projection == ANG_PERSPECTIVE
+                           ? 2 * camera->focus_mm * tan(camera->fov_deg * (M_PI / 360))
+                           : 2 * camera->half_height;
+    double scale = height_mm / scene->height;
+    return scale > 0 && isfinite(scale) ? scale : NAN; /* a centre behind the eye has no scale */
+}
+
+ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_name) {
+    const ang_camera *camera = &scene->camera;
+    ang_annotation a = {
+        .left = ang_letters_make(ang_vec3_scale(camera->right, -1)),
+        .right = ang_letters_make(camera->right),
+        .top = ang_letters_make(camera->up),
+        .bottom = ang_letters_make(ang_vec3_scale(camera->up, -1)),
+        .mm_per_pixel = scale_at_centre(scene),
+    };
+    if (a.mm_per_pixel > 0) {
+        a.bar_mm = ang_round_length(bar_share * scene->width * a.mm_per_pixel);
+        a.bar_pixels = a.bar_mm / a.mm_per_pixel;
+        snprintf(a.bar_label, sizeof a.bar_label, "%.6g mm%s", a.bar_mm,
+                 camera->projection == ANG_PERSPECTIVE ? " at the centre" : "");
+    }
+    const char *mode = ang_mode_name(scene->mode);
+    bool named = preset_name && *preset_name;
+    snprintf(a.caption, sizeof a.caption, "%.100s%s%s", named ? preset_name : "", named && mode ? ", " : "",
+             mode ? mode : "");
+    return a;
+}

@@ -1,0 +1,34 @@
+/* What is written onto a picture: orientation letters, a millimetre bar, preset and mode. Drawn by io/image/annotate.h.
+ */
+#ifndef ANG_SCENE_ANNOTATION_H
+#define ANG_SCENE_ANNOTATION_H
+
+#include "core/scene/scene.h"
+
+/* The letters of a direction in the patient, largest component first (DICOM PS3.3 C.7.6.1.1.1), and an end. */
+typedef struct ang_letters {
+    char text[4];
+} ang_letters;
+
+/* Plain value, owns nothing. */
+typedef struct ang_annotation {
+    ang_letters left, right, top, bottom; /* where each edge of the picture points to in the patient */
+    double mm_per_pixel;                  /* at the depth of the box's centre; NAN where there is none */
+    double bar_mm;                        /* 1, 2 or 5 times a power of ten; 0: no bar */
+    double bar_pixels;                    /* its length in the picture */
+    char bar_label[48];                   /* "50 mm", in perspective "50 mm at the centre" */
+    char caption[128];                    /* "cta-head, dvr" */
+} ang_annotation;
+
+/* Letters of a direction in LPS: L R for x, P A for y, H F for z; the largest component first, then each further one
+ * above 0.38 of the largest (about 21 degrees). Empty for a zero or not finite vector. */
+ang_letters ang_letters_make(ang_vec3 direction);
+
+/* The greatest of 1, 2, 5 times a power of ten that is at most `limit` (> 0); 0 where `limit` is not positive. */
+double ang_round_length(double limit);
+
+/* What to write on the scene's picture. The bar is the longest round length within a fifth of the picture's width.
+ * `preset_name` (NULL: none) is shown as given: a preset's own name, never a path. Pure, thread safe. */
+ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_name);
+
+#endif

@@ -1,0 +1,251 @@
+#include "io/dicom/decode.h"
+
+#include "core/base/memory.h"
+#include "io/dicom/codec.h"
+#include "io/dicom/parse.h"
+#include "io/dicom/stored.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static uint32_t little32(const uint8_t *p) {
+    return (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
+}
+
+static uint32_t big32(const uint8_t *p) {
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+}
+
+static bool read_all(int fd, void *out, size_t length, uint64_t offset) {
+    for (size_t done = 0; done < length;) {
+        ssize_t got = pread(fd, (char *)out + done, length - done, (off_t)(offset + done));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return false;
+        done += (size_t)got;
+    }
+    return true;
+}
+
+bool ang_dicom_rle(const uint8_t *stream, size_t length, size_t count, int bytes, uint8_t *out) {
+    if (length < 64 || little32(stream) != (uint32_t)bytes) return false;
+    for (int segment = 0; segment < bytes; segment++) {
+        size_t begin = little32(stream + 4 + 4 * segment);
+        size_t end = segment + 1 < bytes ? little32(stream + 8 + 4 * segment) : length;
+        if (begin < 64 || begin > end || end > length) return false;
+        const uint8_t *p = stream + begin, *stop = stream + end;
+        size_t step = (size_t)bytes, done = 0;
+        uint8_t *to = out + (bytes - 1 - segment); /* the most significant byte comes first (G.2) */
+        while (done < count) {
+            if (p >= stop) return false;
+            int control = (int8_t)*p++;
+            if (control >= 0) {
+                size_t run = (size_t)control + 1;
+                if ((size_t)(stop - p) < run) return false;
+                for (size_t i = 0; i < run && done < count; i++) to[step * done++] = p[i];
+                p += run;
+            } else if (control != -128) {
+                size_t run = (size_t)(1 - control);
+                if (p >= stop) return false;
+                for (size_t i = 0; i < run && done < count; i++) to[step * done++] = *p;
+                p++;
+            }
+        }
+    }
+    return true;
+}
+
+/* SIZ of JPEG 2000 (ISO 15444-1 A.5.1), which follows SOC. */
+static bool read_siz(const uint8_t *p, size_t length, ang_dicom_stream *out) {
+    if (length < 44 || p[0] != 0xFF || p[1] != 0x4F || p[2] != 0xFF || p[3] != 0x51) return false;
+    uint32_t width = big32(p + 8), height = big32(p + 12), left = big32(p + 16), top = big32(p + 20);
+    if (width <= left || height <= top || width - left > 65535 || height - top > 65535) return false;
+    *out = (ang_dicom_stream){.columns = (int)(width - left),
+                              .rows = (int)(height - top),
+                              .components = p[40] << 8 | p[41],
+                              .precision = (p[42] & 0x7F) + 1,
+                              .is_signed = p[42] >> 7,
+                              .jpeg2000 = true};
+    return true;
+}
+
+bool ang_dicom_stream_header(const uint8_t *stream, size_t length, ang_dicom_stream *out) {
+    if (length < 12) return false;
+    if (read_siz(stream, length, out)) return true;
+    if (memcmp(stream + 4, "jP  ", 4) == 0) { /* boxes of a JP2 file around the code stream, against PS3.5 A.4.4 */
+        for (size_t at = 0; length - at >= 8;) {
+            size_t box = big32(stream + at);
+            if (memcmp(stream + at + 4, "jp2c", 4) == 0) return read_siz(stream + at + 8, length - at - 8, out);
+            if (box < 8 || box > length - at) return false;
+            at += box;
+        }
+        return false;
+    }
+    if (stream[0] != 0xFF || stream[1] != 0xD8) return false;
+    for (size_t at = 2; length - at >= 12;) { /* ISO 10918-1 B.1.1.3: markers until a start of frame */
+        if (stream[at] != 0xFF) return false;
+        int marker = stream[at + 1];
+        if (marker == 0xFF) {
+            at++;
+            continue;
+        }
+        bool frame = (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC) ||
+                     marker == 0xF7; /* JPEG-LS, ISO 14495-1 */
+        if (frame) {
+            *out = (ang_dicom_stream){.precision = stream[at + 4],
+                                      .rows = stream[at + 5] << 8 | stream[at + 6],
+                                      .columns = stream[at + 7] << 8 | stream[at + 8],
+                                      .components = stream[at + 9]};
+            return true;
+        }
+        size_t size = (size_t)(stream[at + 2] << 8 | stream[at + 3]);
+        if (size < 2 || size + 2 > length - at) return false;
+        at += 2 + size;
+    }
+    return false;
+}
+
+/* The fragments of the only frame, joined (PS3.5 annex A.4); the basic offset table comes first and is not needed. */
+static uint8_t *read_fragments(int fd, const ang_dicom_slice *slice, uint64_t file_size, size_t *length,
+                               const char *label, ang_error *err) {
+    uint8_t *stream = NULL, head[8];
+    uint64_t at = slice->pixel_offset;
+    *length = 0;
+    for (int item = 0;; item++) {
+        if (at > file_size || file_size - at < 8 || !read_all(fd, head, 8, at)) break; /* no delimiter: what there is */
+        uint32_t size = little32(head + 4);
+        if (head[0] != 0xFE || head[1] != 0xFF || head[2] != 0x00 || head[3] != 0xE0) break;
+        at += 8;
+        if (size > file_size - at) {
+            ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is cut off", label);
+            goto failed;
+        }
+        if (item > 0 && size > 0) {
+            uint8_t *grown = *length + size < UINT32_MAX ? realloc(stream, *length + size + 1) : NULL;
+            if (!grown) {
+                ang_fail(err, ANG_LIMIT, "%s: no memory for its compressed pixels", label);
+                goto failed;
+            }
+            stream = grown;
+            if (!read_all(fd, stream + *length, size, at)) {
+                ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is cut off", label);
+                goto failed;
+            }
+            *length += size;
+        }
+        at += size;
+    }
+    if (*length > 0) return stream;
+    ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData holds no fragments", label);
+failed:
+    free(stream);
+    return NULL;
+}
+
+static bool decode_rle(const uint8_t *stream, size_t length, const ang_dicom_slice *slice, uint16_t *out,
+                       const char *label, ang_error *err) {
+    ang_dicom_words words = ang_dicom_words_of(slice);
+    size_t count = (size_t)slice->rows * (size_t)slice->columns;
+    uint8_t *raw = ang_alloc(count, (size_t)words.bytes, "a slice", err);
+    if (!raw) return false;
+    bool ok = ang_dicom_rle(stream, length, count, words.bytes, raw);
+    if (ok)
+        ang_dicom_convert(raw, count, words, out);
+    else
+        ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData: its run lengths are damaged", label);
+    free(raw);
+    return ok;
+}
+
+static bool decode_stream(const uint8_t *stream, size_t length, const ang_dicom_slice *slice, uint16_t *out,
+                          const char *label, ang_error *err) {
+#ifdef ANG_WITH_GDCM
+    ang_dicom_stream header;
+    if (!ang_dicom_stream_header(stream, length, &header))
+        return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is no JPEG, JPEG-LS or JPEG 2000 stream", label);
+    if (header.columns != slice->columns || header.rows != slice->rows || header.components != 1)
+        return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is %d x %d x %d, the header says %d x %d x 1", label,
+                        header.columns, header.rows, header.components, slice->columns, slice->rows);
+    if (header.precision < 1 || header.precision > 16)
+        return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData has %d bits a pixel", label, header.precision);
+
+    ang_codec_frame frame = {slice->transfer_syntax, slice->columns, slice->rows, header.precision, header.is_signed};
+    ang_dicom_words words = ang_dicom_words_of(slice);
+    words.bytes = header.precision <= 8 ? 1 : 2;
+    words.big_endian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+    /* The record holds a JPEG 2000 stream's own precision already; other streams may be narrower than the header. */
+    if (words.bits_stored > header.precision || words.high_bit >= 8 * words.bytes) {
+        words.bits_stored = header.precision;
+        words.high_bit = header.precision - 1;
+    }
+    size_t count = (size_t)slice->rows * (size_t)slice->columns, size = count * (size_t)words.bytes;
+    void *raw = words.bytes == 2 ? out : ang_alloc(count, 1, "a slice", err);
+    if (!raw) return false;
+    ang_error why = {0};
+    bool ok = ang_codec_decode(stream, length, &frame, raw, size, &why);
+    if (ok)
+        ang_dicom_convert(raw, count, words, out);
+    else
+        ang_fail(err, why.code, "%s: %s", label, why.message);
+    if (raw != out) free(raw);
+    return ok;
+#else
+    (void)stream, (void)length, (void)out;
+    return ang_fail(err, ANG_INPUT, "%s: compressed pixels (transfer syntax %s): this build has no GDCM to decode them",
+                    label, slice->transfer_syntax);
+#endif
+}
+
+static bool decode_native(int fd, const ang_dicom_slice *slice, uint16_t *out, const char *label, ang_error *err) {
+    ang_dicom_words words = ang_dicom_words_of(slice);
+    size_t count = (size_t)slice->rows * (size_t)slice->columns, size = count * (size_t)words.bytes;
+    void *raw = words.bytes == 2 ? out : ang_alloc(count, (size_t)words.bytes, "a slice", err);
+    if (!raw) return false;
+    bool ok = read_all(fd, raw, size, slice->pixel_offset);
+    if (ok)
+        ang_dicom_convert(raw, count, words, out);
+    else
+        ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is cut off", label);
+    if (raw != out) free(raw);
+    return ok;
+}
+
+/* Walks to the pixels of a deflated data set anew: keeping them since the header was read would cost a volume. */
+static bool decode_deflated(const char *path, const ang_dicom_slice *slice, uint16_t *out, const char *label,
+                            ang_error *err) {
+    ang_dicom_reader *reader = ang_alloc(1, sizeof *reader, "a file's header", err);
+    if (!reader) return false;
+    bool ok = ang_dicom_open(reader, path, label, err) == ANG_DICOM_FOUND;
+    ang_dicom_words words = ang_dicom_words_of(slice);
+    size_t count = (size_t)slice->rows * (size_t)slice->columns, size = count * (size_t)words.bytes;
+    if (ok && (!reader->memory || slice->pixel_offset > reader->size || reader->size - slice->pixel_offset < size))
+        ok = ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is cut off", label);
+    if (ok) ang_dicom_convert(reader->memory + slice->pixel_offset, count, words, out);
+    ang_dicom_close(reader);
+    free(reader);
+    return ok;
+}
+
+bool ang_dicom_decode(const char *path, const char *label, const ang_dicom_slice *slice, uint16_t *out,
+                      ang_error *err) {
+    if (slice->coding == ANG_DICOM_DEFLATED) return decode_deflated(path, slice, out, label, err);
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0) return ang_fail(err, ANG_INPUT, "%s: %s", label, strerror(errno));
+    bool ok;
+    if (slice->coding == ANG_DICOM_NATIVE || slice->coding == ANG_DICOM_BIG_ENDIAN) {
+        ok = decode_native(fd, slice, out, label, err);
+    } else {
+        struct stat status;
+        size_t length = 0;
+        uint64_t size = fstat(fd, &status) == 0 ? (uint64_t)status.st_size : 0;
+        uint8_t *stream = read_fragments(fd, slice, size, &length, label, err);
+        ok = stream && (slice->coding == ANG_DICOM_RLE ? decode_rle(stream, length, slice, out, label, err)
+                                                       : decode_stream(stream, length, slice, out, label, err));
+        free(stream);
+    }
+    close(fd);
+    return ok;
+}

@@ -1,0 +1,28 @@
+/* The pixels of one slice: from its file to 16-bit values. */
+#ifndef ANG_DICOM_DECODE_H
+#define ANG_DICOM_DECODE_H
+
+#include "core/base/error.h"
+#include "io/dicom/slice.h"
+
+/* Reads the slice's pixels from `path` (`label` names it in errors) into `out`, rows x columns values as
+ * ang_dicom_convert writes them. Native pixels go straight there; otherwise one slice's compressed and decoded bytes
+ * are held meanwhile. ANG_INPUT where the file cannot be decoded, ANG_LIMIT. Thread safe. */
+bool ang_dicom_decode(const char *path, const char *label, const ang_dicom_slice *slice, uint16_t *out, ang_error *err);
+
+/* Run lengths of one frame (PS3.5 annex G) become `bytes` little-endian bytes for each of `count` words. False where
+ * the stream is damaged or too short. */
+bool ang_dicom_rle(const uint8_t *stream, size_t length, size_t count, int bytes, uint8_t *out);
+
+/* What a JPEG, JPEG-LS or JPEG 2000 stream says of itself. */
+typedef struct ang_dicom_stream {
+    int columns, rows, components;
+    int precision; /* bits */
+    bool is_signed;
+    bool jpeg2000;
+} ang_dicom_stream;
+
+/* Reads the stream's own header; false where there is none. */
+bool ang_dicom_stream_header(const uint8_t *stream, size_t length, ang_dicom_stream *out);
+
+#endif

@@ -1,0 +1,261 @@
+#include "io/dicom/dicom.h"
+
+#include "core/base/memory.h"
+#include "io/dicom/assemble.h"
+#include "io/dicom/decode.h"
+#include "io/dicom/folder.h"
+#include "io/dicom/parse.h"
+#include "io/dicom/series.h"
+#include "io/dicom/stored.h"
+#include "io/formats.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool ang_dicom_probe(const char *path) {
+    ang_dicom_reader *reader = malloc(sizeof *reader);
+    if (!reader) return false;
+    ang_error ignored;
+    bool found = ang_dicom_open(reader, path, "", &ignored) == ANG_DICOM_FOUND;
+    ang_dicom_close(reader);
+    free(reader);
+    return found;
+}
+
+/* Two files at one position: do they hold the same picture (rule 6)? */
+static bool same_pixels(void *context, size_t a, size_t b) {
+    const ang_dicom_folder *folder = context;
+    const ang_dicom_slice *left = &folder->slices[a], *right = &folder->slices[b];
+    if (left->rows != right->rows || left->columns != right->columns) return false;
+    ang_dicom_map from = ang_dicom_map_of(left), to = ang_dicom_map_of(right);
+    if (from.slope != to.slope || from.intercept != to.intercept) return false;
+    size_t count = (size_t)left->rows * (size_t)left->columns;
+    uint16_t *pixels = malloc(2 * count * sizeof *pixels);
+    ang_error ignored;
+    bool same =
+        pixels && ang_dicom_decode(folder->paths[left->file], folder->labels[left->file], left, pixels, &ignored) &&
+        ang_dicom_decode(folder->paths[right->file], folder->labels[right->file], right, pixels + count, &ignored) &&
+        memcmp(pixels, pixels + count, count * sizeof *pixels) == 0;
+    free(pixels);
+    return same;
+}
+
+static void describe(const ang_dicom_slice *slices, const ang_dicom_group *group, int number, ang_series_info *info) {
+    const ang_dicom_slice *first = &slices[group->order[0]], *last = &slices[group->order[group->count - 1]];
+    *info = (ang_series_info){.number = number,
+                              .description = strdup(first->description),
+                              .uid = strdup(first->series_uid),
+                              .remark = strdup(group->remark),
+                              .width = first->columns,
+                              .height = first->rows,
+                              .slices = (int)group->count,
+                              .loadable = group->loadable};
+    snprintf(info->modality, sizeof info->modality, "%s", first->modality[0] ? first->modality : "?");
+    info->spacing_mm[0] = first->has_spacing ? first->column_spacing : 1;
+    info->spacing_mm[1] = first->has_spacing ? first->row_spacing : 1;
+    info->spacing_mm[2] = first->has_thickness && first->thickness > 0 ? first->thickness : 1;
+    if (group->count > 1 && first->has_position && first->has_orientation)
+        info->spacing_mm[2] =
+            ang_vec3_length(ang_vec3_sub(last->position, first->position)) / (double)(group->count - 1);
+}
+
+static bool list_series(const ang_dicom_folder *folder, const ang_dicom_groups *groups, ang_load_report *report,
+                        ang_error *err) {
+    report->series = ang_alloc(groups->count, sizeof *report->series, "list of series", err);
+    if (!report->series) return false;
+    report->series_count = groups->count;
+    for (size_t i = 0; i < groups->count; i++)
+        describe(folder->slices, &groups->group[i], (int)i + 1, &report->series[i]);
+    return true;
+}
+
+/* Everything that the header says and that the values do not follow, or that it leaves open. */
+static void note_values(const ang_dicom_slice *first, ang_load_report *report) {
+    ang_notes *assumptions = &report->assumptions, *warnings = &report->warnings;
+    if (strcmp(first->modality, "CT") != 0)
+        ang_notes_add(warnings, "modality is %s, not CT: values are not Hounsfield units",
+                      first->modality[0] ? first->modality : "not given");
+    if (!first->has_slope && !first->has_intercept)
+        ang_notes_add(assumptions, "RescaleSlope and RescaleIntercept are missing: 1 and 0 are taken");
+    else if (!first->has_slope || first->slope == 0)
+        ang_notes_add(assumptions, "RescaleSlope is missing or 0: 1 is taken");
+    else if (!first->has_intercept)
+        ang_notes_add(assumptions, "RescaleIntercept is missing: 0 is taken");
+    if (ang_dicom_map_of(first).slope < 0)
+        ang_notes_add(assumptions, "RescaleSlope is negative: stored values were turned over, HU are the same");
+    if (strcmp(first->photometric, "MONOCHROME1") == 0)
+        ang_notes_add(assumptions, "MONOCHROME1 is a matter of display: HU are as stored");
+    if (first->lossy) ang_notes_add(warnings, "the pictures were compressed with loss: HU are approximate");
+    uint16_t low, high;
+    if (first->has_padding && !ang_dicom_padding(first, &low, &high))
+        ang_notes_add(assumptions, "the declared padding value %u does not fit %d stored bits: ignored", first->padding,
+                      first->bits_stored);
+}
+
+static void note_result(const ang_volume *volume, const ang_dicom_slice *first, ang_load_report *report) {
+    ang_notes *assumptions = &report->assumptions;
+    double share = 100.0 * (double)volume->padding_count / (double)ang_volume_count(volume);
+    uint16_t low, high;
+    if (report->padding_found && ang_dicom_padding(first, &low, &high))
+        ang_notes_add(assumptions, "the declared padding value occurs nowhere");
+    if (report->padding_found)
+        ang_notes_add(assumptions, "%g HU fills the corners: taken for padding (%.1f %%) and shown as -1000 HU",
+                      report->padding_hu, share);
+    if (report->padding_declared)
+        ang_notes_add(assumptions, "declared padding, %g HU, %.1f %% of the voxels, is shown as -1000 HU",
+                      report->padding_hu, share);
+    if (report->padding_declared && report->padding_hu > -900)
+        ang_notes_add(&report->warnings, "the declared padding value is %g HU, which may also be tissue",
+                      report->padding_hu);
+    if (report->rescale_error_hu > 1e-9)
+        ang_notes_add(&report->warnings, "rescale differs between slices: one map for all, off by at most %.3g HU",
+                      report->rescale_error_hu);
+    if (report->tilt_deg > 0.01)
+        ang_notes_add(assumptions, "gantry tilt of %.2f degrees is kept as a shear, nothing is resampled for it",
+                      report->tilt_deg);
+}
+
+static void take_grid(ang_dicom_grid *grid, const ang_dicom_slice *first, ang_load_report *report) {
+    report->gaps = grid->gaps;
+    report->gap_count = grid->gap_count;
+    grid->gaps = NULL;
+    grid->gap_count = 0;
+    report->slices_missing = grid->missing;
+    report->slice_gap_median_mm = grid->median;
+    report->slice_gap_min_mm = grid->least;
+    report->slice_gap_max_mm = grid->greatest;
+    report->resampled = grid->resampled;
+    report->tilt_deg = grid->tilt_deg;
+    report->tilt_nominal_deg = first->has_tilt ? first->tilt : NAN;
+    report->signed_stored = first->is_signed;
+    report->bits_stored = first->bits_stored;
+    report->window_centre = first->has_window ? first->window_centre : NAN;
+    report->window_width = first->has_window ? first->window_width : NAN;
+}
+
+/* Takes slices that could not be decoded out of the group, with a warning each; false where none is left. */
+static bool leave_out_failed(const ang_dicom_folder *folder, ang_dicom_group *group, const bool *failed, char **reasons,
+                             ang_load_report *report, ang_error *err) {
+    size_t kept = 0;
+    for (size_t i = 0; i < group->count; i++) {
+        if (!failed[i]) {
+            group->order[kept++] = group->order[i];
+            continue;
+        }
+        const ang_dicom_slice *slice = &folder->slices[group->order[i]];
+        const char *reason = reasons[i] ? reasons[i] : "cannot be decoded";
+        if (kept == 0 && i + 1 == group->count) ang_fail(err, ANG_INPUT, "%s", reason);
+        ang_dicom_warn_file(&report->warnings, folder->labels[slice->file], reason);
+    }
+    group->count = kept;
+    return kept > 0;
+}
+
+/* Geometry and voxels; where slices cannot be decoded, again without them, so that they count as missing. */
+static ang_volume *build(const ang_dicom_folder *folder, ang_dicom_group *group, int threads, ang_load_report *report,
+                         const ang_progress *progress, ang_error *err) {
+    ang_volume *volume = NULL;
+    ang_dicom_sort(folder->slices, group->order, group->count, &report->assumptions);
+    for (bool again = true; again;) {
+        again = false;
+        size_t count = group->count;
+        const ang_dicom_slice *first = &folder->slices[group->order[0]];
+        ang_notes assumptions = {0}, warnings = {0};
+        ang_dicom_grid grid = {0};
+        bool *failed = ang_alloc(count, sizeof *failed, "slices", err);
+        char **reasons = failed ? ang_alloc(count, sizeof *reasons, "slices", err) : NULL;
+        if (reasons && ang_dicom_geometry(folder->slices, group->order, count, &grid, &assumptions, &warnings, err)) {
+            ang_dicom_stack stack = {folder->slices, group->order, count,  folder->paths,
+                                     folder->labels, &grid,        threads};
+            volume = ang_dicom_assemble(&stack, report, progress, failed, reasons, err);
+            if (volume) {
+                take_grid(&grid, first, report);
+                report->slices_read = (int)count;
+                for (size_t i = 0; i < assumptions.count; i++)
+                    ang_notes_add(&report->assumptions, "%s", assumptions.text[i]);
+                for (size_t i = 0; i < warnings.count; i++) ang_notes_add(&report->warnings, "%s", warnings.text[i]);
+            } else {
+                bool any = false;
+                for (size_t i = 0; i < count; i++) any = any || failed[i];
+                again = any && (!err || err->code == ANG_INPUT) &&
+                        leave_out_failed(folder, group, failed, reasons, report, err);
+            }
+        }
+        for (size_t i = 0; reasons && i < count; i++) free(reasons[i]);
+        free(reasons);
+        free(failed);
+        ang_notes_clear(&assumptions);
+        ang_notes_clear(&warnings);
+        ang_dicom_grid_clear(&grid);
+    }
+    return volume;
+}
+
+static ang_volume *load_folder(const ang_dicom_folder *folder, const char *path, const ang_load_options *options,
+                               ang_load_report *report, const ang_progress *progress, ang_error *err) {
+    if (folder->slice_count == 0) {
+        if (folder->broken == 1)
+            ang_fail(err, ANG_INPUT, "%s", folder->first_error);
+        else if (folder->broken > 1)
+            ang_fail(err, ANG_INPUT, "none of %zu DICOM files can be read; the first: %s", folder->broken,
+                     folder->first_error);
+        else if (folder->count == 1)
+            ang_fail(err, ANG_INPUT, "%s: holds no DICOM image; a DICOMDIR is an index: give its folder",
+                     folder->labels[0]);
+        else
+            ang_fail(err, ANG_INPUT, "%s: no DICOM image among its %zu files", path, folder->count);
+        return NULL;
+    }
+    if (folder->foreign > 0)
+        ang_notes_add(&report->assumptions, "%zu of %zu files are no DICOM images and were passed over",
+                      folder->foreign, folder->count);
+    ang_dicom_groups groups;
+    if (!ang_dicom_group_slices(folder->slices, folder->slice_count, same_pixels, (void *)(uintptr_t)folder, &groups,
+                                err))
+        return NULL;
+    ang_volume *volume = NULL;
+    size_t chosen = 0;
+    ang_error why = {0};
+    if (!list_series(folder, &groups, report, err)) {
+    } else if (!ang_dicom_choose(folder->slices, &groups, options->series, &chosen, &why)) {
+        if (options->series)
+            ang_fail(err, why.code, "%s", why.message);
+        else
+            ang_fail(err, why.code, "%s: %s", ang_base_name(path), why.message);
+    } else {
+        ang_dicom_group *group = &groups.group[chosen];
+        const ang_dicom_slice *first = &folder->slices[group->order[0]];
+        report->chosen = (int)chosen;
+        report->slices_duplicate = group->duplicates;
+        if (groups.count > 1 && !options->series)
+            ang_notes_add(&report->assumptions,
+                          "series %zu of %zu is shown: the largest %s volume; --series picks another", chosen + 1,
+                          groups.count, strcmp(first->modality, "CT") == 0 ? "CT" : "image");
+        if (group->duplicates > 0)
+            ang_notes_add(&report->assumptions, "%d slices with the same position and pixels as another were dropped",
+                          group->duplicates);
+        if (group->phases > 1)
+            ang_notes_add(&report->assumptions, "the series holds %d volumes at the same positions: one is shown",
+                          group->phases);
+        note_values(first, report);
+        volume = build(folder, group, options->threads, report, progress, err);
+        if (volume) {
+            note_result(volume, first, report);
+            report->series[chosen].slices = report->slices_read;
+        }
+    }
+    ang_dicom_groups_clear(&groups);
+    return volume;
+}
+
+ang_volume *ang_dicom_load(const char *path, const ang_load_options *options, ang_load_report *report,
+                           const ang_progress *progress, ang_error *err) {
+    snprintf(report->format, sizeof report->format, "DICOM");
+    ang_dicom_folder folder;
+    if (!ang_dicom_read_folder(path, options->threads, &folder, &report->warnings, progress, err)) return NULL;
+    ang_volume *volume = load_folder(&folder, path, options, report, progress, err);
+    ang_dicom_folder_clear(&folder);
+    return volume;
+}

@@ -1,0 +1,162 @@
+#include "io/dicom/folder.h"
+
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "io/dicom/header.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { deepest = 32, most_warnings = 20 };
+
+void ang_dicom_folder_clear(ang_dicom_folder *folder) {
+    for (size_t i = 0; i < folder->count; i++) free(folder->paths[i]);
+    free(folder->paths);
+    free(folder->labels);
+    free(folder->slices);
+    *folder = (ang_dicom_folder){0};
+}
+
+void ang_dicom_warn_file(ang_notes *notes, const char *label, const char *message) {
+    size_t length = strlen(label);
+    if (strncmp(message, label, length) == 0 && message[length] == ':') message += length + 1;
+    while (*message == ' ') message++;
+    ang_notes_add(notes, "file \"%s\": %s", label, message);
+}
+
+static bool add_path(ang_dicom_folder *folder, size_t *capacity, char *path, ang_error *err) {
+    if (path && folder->count == *capacity) {
+        size_t wanted = *capacity ? *capacity * 2 : 256;
+        char **grown = realloc(folder->paths, wanted * sizeof *grown);
+        if (!grown) {
+            free(path);
+            path = NULL;
+        } else {
+            folder->paths = grown;
+            *capacity = wanted;
+        }
+    }
+    if (!path) return ang_fail(err, ANG_LIMIT, "no memory for the list of files");
+    folder->paths[folder->count++] = path;
+    return true;
+}
+
+/* Folders below are followed, links to folders are not: they may lead back here. */
+static bool list_files(const char *path, ang_dicom_folder *folder, size_t *capacity, int depth, ang_error *err) {
+    DIR *directory = opendir(path);
+    if (!directory) {
+        if (depth > 0) return true; /* a folder that we may not enter holds nothing for us */
+        return ang_fail(err, ANG_INPUT, "%s: %s", path, strerror(errno));
+    }
+    bool ok = true;
+    for (struct dirent *entry; ok && (entry = readdir(directory));) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        char *full = NULL;
+        if (asprintf(&full, "%s/%s", path, entry->d_name) < 0) full = NULL;
+        struct stat status;
+        int type = entry->d_type;
+        if (full && (type == DT_UNKNOWN || type == DT_LNK)) {
+            bool known = stat(full, &status) == 0;
+            if (known && S_ISREG(status.st_mode)) type = DT_REG;
+            if (known && S_ISDIR(status.st_mode) && type == DT_UNKNOWN) type = DT_DIR;
+        }
+        if (full && type == DT_DIR) {
+            if (depth < deepest) ok = list_files(full, folder, capacity, depth + 1, err);
+            free(full);
+        } else if (full && type != DT_REG) {
+            free(full);
+        } else {
+            ok = add_path(folder, capacity, full, err);
+        }
+    }
+    closedir(directory);
+    return ok;
+}
+
+static int compare_paths(const void *left, const void *right) {
+    return strcmp(*(char *const *)left, *(char *const *)right);
+}
+
+typedef struct header_job {
+    const ang_dicom_folder *folder;
+    const ang_progress *progress;
+    ang_dicom_reader *readers; /* per worker */
+    ang_dicom_slice *slices;   /* per file */
+    ang_dicom_found *found;
+    char **errors;
+    atomic_size_t done;
+    atomic_bool stop;
+} header_job;
+
+static void read_headers(void *context, size_t begin, size_t end, int worker) {
+    header_job *job = context;
+    for (size_t i = begin; i < end; i++) {
+        if (atomic_load_explicit(&job->stop, memory_order_relaxed)) return;
+        ang_error why = {0};
+        job->slices[i].file = i;
+        job->found[i] = ang_dicom_header(job->folder->paths[i], job->folder->labels[i], &job->readers[worker],
+                                         &job->slices[i], &why);
+        if (job->found[i] == ANG_DICOM_BROKEN) job->errors[i] = strdup(why.message);
+        double share = (double)(atomic_fetch_add(&job->done, 1) + 1) / (double)job->folder->count;
+        if (!ang_progress_update(job->progress, "reading headers", share)) atomic_store(&job->stop, true);
+    }
+}
+
+static void sum_up(ang_dicom_folder *folder, header_job *job, ang_notes *warnings) {
+    for (size_t i = 0; i < folder->count; i++) {
+        if (job->found[i] == ANG_DICOM_FOREIGN) folder->foreign++;
+        if (job->found[i] == ANG_DICOM_BROKEN && job->errors[i]) {
+            if (folder->broken++ == 0) snprintf(folder->first_error, sizeof folder->first_error, "%s", job->errors[i]);
+            if (folder->broken <= most_warnings) ang_dicom_warn_file(warnings, folder->labels[i], job->errors[i]);
+        }
+        if (job->found[i] == ANG_DICOM_FOUND) folder->slices[folder->slice_count++] = job->slices[i];
+    }
+    if (folder->broken > most_warnings)
+        ang_notes_add(warnings, "%zu more files cannot be read", folder->broken - most_warnings);
+}
+
+bool ang_dicom_read_folder(const char *path, int threads, ang_dicom_folder *folder, ang_notes *warnings,
+                           const ang_progress *progress, ang_error *err) {
+    *folder = (ang_dicom_folder){0};
+    struct stat status;
+    size_t capacity = 0;
+    if (stat(path, &status) != 0) return ang_fail(err, ANG_INPUT, "%s: %s", path, strerror(errno));
+    bool ok = S_ISDIR(status.st_mode) ? list_files(path, folder, &capacity, 0, err)
+                                      : add_path(folder, &capacity, strdup(path), err);
+    if (ok && folder->count == 0) ok = ang_fail(err, ANG_INPUT, "%s: the folder is empty", path);
+    if (!ok) {
+        ang_dicom_folder_clear(folder);
+        return false;
+    }
+    qsort(folder->paths, folder->count, sizeof *folder->paths, compare_paths);
+    folder->labels = ang_alloc(folder->count, sizeof *folder->labels, "list of files", err);
+    for (size_t i = 0; folder->labels && i < folder->count; i++) {
+        char *slash = strrchr(folder->paths[i], '/');
+        folder->labels[i] = slash ? slash + 1 : folder->paths[i];
+    }
+    int workers = ang_thread_count(threads);
+    header_job job = {.folder = folder, .progress = progress};
+    job.readers = ang_alloc((size_t)workers, sizeof *job.readers, "headers", err);
+    job.slices = ang_alloc(folder->count, sizeof *job.slices, "headers", err);
+    job.found = ang_alloc(folder->count, sizeof *job.found, "headers", err);
+    job.errors = ang_alloc(folder->count, sizeof *job.errors, "headers", err);
+    folder->slices = ang_alloc(folder->count, sizeof *folder->slices, "headers", err);
+    ok = folder->labels && job.readers && job.slices && job.found && job.errors && folder->slices;
+    if (ok) {
+        ang_parallel_for(folder->count, 8, threads, read_headers, &job);
+        if (job.stop) ok = ang_fail(err, ANG_INTERRUPTED, "interrupted while reading headers");
+    }
+    if (ok) sum_up(folder, &job, warnings);
+    for (size_t i = 0; job.errors && i < folder->count; i++) free(job.errors[i]);
+    free(job.readers);
+    free(job.slices);
+    free(job.found);
+    free(job.errors);
+    if (!ok) ang_dicom_folder_clear(folder);
+    return ok;
+}

@@ -1,0 +1,32 @@
+/* The files below a folder and the DICOM headers among them. */
+#ifndef ANG_DICOM_FOLDER_H
+#define ANG_DICOM_FOLDER_H
+
+#include "core/base/error.h"
+#include "core/base/notes.h"
+#include "core/base/progress.h"
+#include "io/dicom/slice.h"
+
+/* Files and the slices found in them. Owns everything; free with ang_dicom_folder_clear. */
+typedef struct ang_dicom_folder {
+    char **paths;  /* sorted */
+    char **labels; /* base name of each, for messages */
+    size_t count;
+    ang_dicom_slice *slices; /* of the DICOM files that can be read, in order of path */
+    size_t slice_count;
+    size_t foreign; /* files that are no DICOM */
+    size_t broken;  /* DICOM files that cannot be read */
+    char first_error[512];
+} ang_dicom_folder;
+
+/* Reads the headers of all regular files in and below `path`, or of that one file, on `threads` threads. Files that are
+ * no DICOM are counted, DICOM files that cannot be read cost a line in `warnings` each. False with ANG_INPUT where the
+ * path cannot be read, ANG_LIMIT, ANG_INTERRUPTED. */
+bool ang_dicom_read_folder(const char *path, int threads, ang_dicom_folder *folder, ang_notes *warnings,
+                           const ang_progress *progress, ang_error *err);
+void ang_dicom_folder_clear(ang_dicom_folder *folder);
+
+/* Adds `file "LABEL": message` to `notes`; `message` may begin with the label already. */
+void ang_dicom_warn_file(ang_notes *notes, const char *label, const char *message);
+
+#endif

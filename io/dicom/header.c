@@ -1,0 +1,352 @@
+#include "io/dicom/header.h"
+
+#include "io/dicom/decode.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TAG(group, element) ((uint32_t)(group) << 16 | (element))
+
+/* What the loop over the elements has seen; the record holds the rest. */
+typedef struct seen {
+    bool rows, columns, bits_allocated, bits_stored, high_bit, representation;
+    bool pixels, float_pixels, functional_groups;
+    uint32_t pixel_length;
+    char acquisition_date[17], content_date[17], acquisition_time[21], content_time[21];
+} seen;
+
+void ang_dicom_value(const char *values, int index, char *out, size_t size) {
+    for (; index > 0 && values; index--) {
+        values = strchr(values, '\\');
+        if (values) values++;
+    }
+    size_t length = values ? strcspn(values, "\\") : 0;
+    while (length && values[length - 1] == ' ') length--;
+    if (length >= size) length = size - 1;
+    if (length) memcpy(out, values, length);
+    out[length] = 0;
+}
+
+size_t ang_dicom_pixel_bytes(const ang_dicom_slice *slice) {
+    if (slice->rows < 1 || slice->columns < 1) return 0;
+    size_t bytes = (size_t)(slice->bits_allocated + 7) / 8;
+    return (size_t)slice->rows * (size_t)slice->columns * (size_t)slice->samples * bytes;
+}
+
+static bool integer(ang_dicom_reader *reader, const ang_dicom_element *element, int *out) {
+    double value;
+    if (ang_dicom_numbers(reader, element, &value, 1) != 1 || fabs(value) > 2147483647.0) return false;
+    *out = (int)value;
+    return true;
+}
+
+/* A US attribute; with implicit VR its bytes are no text. */
+static bool word(ang_dicom_reader *reader, const ang_dicom_element *element, int *out) {
+    uint16_t value;
+    if (!ang_dicom_word(reader, element, &value)) return false;
+    *out = value;
+    return true;
+}
+
+static void take_identity(ang_dicom_reader *r, const ang_dicom_element *e, ang_dicom_slice *s, seen *seen) {
+    switch (e->tag) {
+    case TAG(0x0008, 0x0008):
+        ang_dicom_text(r, e, s->image_type, sizeof s->image_type);
+        break;
+    case TAG(0x0008, 0x0016):
+        ang_dicom_text(r, e, s->sop_class, sizeof s->sop_class);
+        break;
+    case TAG(0x0008, 0x0022):
+        ang_dicom_text(r, e, seen->acquisition_date, sizeof seen->acquisition_date);
+        break;
+    case TAG(0x0008, 0x0023):
+        ang_dicom_text(r, e, seen->content_date, sizeof seen->content_date);
+        break;
+    case TAG(0x0008, 0x0032):
+        ang_dicom_text(r, e, seen->acquisition_time, sizeof seen->acquisition_time);
+        break;
+    case TAG(0x0008, 0x0033):
+        ang_dicom_text(r, e, seen->content_time, sizeof seen->content_time);
+        break;
+    case TAG(0x0008, 0x0060):
+        ang_dicom_text(r, e, s->modality, sizeof s->modality);
+        break;
+    case TAG(0x0008, 0x103E):
+        ang_dicom_text(r, e, s->description, sizeof s->description);
+        break;
+    case TAG(0x0020, 0x000E):
+        ang_dicom_text(r, e, s->series_uid, sizeof s->series_uid);
+        break;
+    case TAG(0x0020, 0x0011):
+        s->has_series_number = integer(r, e, &s->series_number);
+        break;
+    case TAG(0x0020, 0x0012):
+        s->has_acquisition_number = integer(r, e, &s->acquisition_number);
+        break;
+    case TAG(0x0020, 0x0013):
+        s->has_instance_number = integer(r, e, &s->instance_number);
+        break;
+    case TAG(0x0020, 0x0100):
+        s->has_temporal_position = integer(r, e, &s->temporal_position);
+        break;
+    case TAG(0x0020, 0x9056):
+        ang_dicom_text(r, e, s->stack_id, sizeof s->stack_id);
+        break;
+    default:
+        break;
+    }
+}
+
+static void take_geometry(ang_dicom_reader *r, const ang_dicom_element *e, ang_dicom_slice *s) {
+    double v[6];
+    switch (e->tag) {
+    case TAG(0x0018, 0x0050):
+        s->has_thickness = ang_dicom_numbers(r, e, &s->thickness, 1) == 1;
+        break;
+    case TAG(0x0018, 0x0088):
+        s->has_slice_distance = ang_dicom_numbers(r, e, &s->slice_distance, 1) == 1;
+        break;
+    case TAG(0x0018, 0x1120):
+        s->has_tilt = ang_dicom_numbers(r, e, &s->tilt, 1) == 1;
+        break;
+    case TAG(0x0020, 0x0032):
+        if ((s->has_position = ang_dicom_numbers(r, e, v, 3) == 3)) s->position = (ang_vec3){v[0], v[1], v[2]};
+        break;
+    case TAG(0x0020, 0x0037):
+        if ((s->has_orientation = ang_dicom_numbers(r, e, v, 6) == 6)) {
+            s->row = (ang_vec3){v[0], v[1], v[2]};
+            s->column = (ang_vec3){v[3], v[4], v[5]};
+        }
+        break;
+    case TAG(0x0028, 0x0030):
+        if (ang_dicom_numbers(r, e, v, 2) == 2 && v[0] > 0 && v[1] > 0) {
+            s->has_spacing = true;
+            s->row_spacing = v[0];
+            s->column_spacing = v[1];
+        }
+        break;
+    default:
+        break;
+    }
+}
+
+static void take_pixels(ang_dicom_reader *r, const ang_dicom_element *e, ang_dicom_slice *s, seen *seen) {
+    int number = 0;
+    char text[17];
+    switch (e->tag) {
+    case TAG(0x0028, 0x0002):
+        word(r, e, &s->samples);
+        break;
+    case TAG(0x0028, 0x0004):
+        ang_dicom_text(r, e, s->photometric, sizeof s->photometric);
+        break;
+    case TAG(0x0028, 0x0008):
+        if (integer(r, e, &number)) s->frames = number;
+        break;
+    case TAG(0x0028, 0x0010):
+        seen->rows = word(r, e, &s->rows);
+        break;
+    case TAG(0x0028, 0x0011):
+        seen->columns = word(r, e, &s->columns);
+        break;
+    case TAG(0x0028, 0x0100):
+        seen->bits_allocated = word(r, e, &s->bits_allocated);
+        break;
+    case TAG(0x0028, 0x0101):
+        seen->bits_stored = word(r, e, &s->bits_stored);
+        break;
+    case TAG(0x0028, 0x0102):
+        seen->high_bit = word(r, e, &s->high_bit);
+        break;
+    case TAG(0x0028, 0x0103):
+        seen->representation = word(r, e, &number);
+        s->is_signed = number == 1;
+        break;
+    case TAG(0x0028, 0x0120):
+        s->has_padding = ang_dicom_word(r, e, &s->padding);
+        break;
+    case TAG(0x0028, 0x0121):
+        s->has_padding_limit = ang_dicom_word(r, e, &s->padding_limit);
+        break;
+    case TAG(0x0028, 0x1050):
+        s->has_window = ang_dicom_numbers(r, e, &s->window_centre, 1) == 1;
+        break;
+    case TAG(0x0028, 0x1051):
+        if (ang_dicom_numbers(r, e, &s->window_width, 1) != 1) s->has_window = false;
+        break;
+    case TAG(0x0028, 0x1052):
+        s->has_intercept = ang_dicom_numbers(r, e, &s->intercept, 1) == 1;
+        break;
+    case TAG(0x0028, 0x1053):
+        s->has_slope = ang_dicom_numbers(r, e, &s->slope, 1) == 1;
+        break;
+    case TAG(0x0028, 0x2110):
+        s->lossy = ang_dicom_text(r, e, text, sizeof text) && strcmp(text, "01") == 0;
+        break;
+    case TAG(0x5200, 0x9229):
+    case TAG(0x5200, 0x9230):
+        seen->functional_groups = true;
+        break;
+    case TAG(0x7FE0, 0x0008):
+    case TAG(0x7FE0, 0x0009):
+        seen->float_pixels = true;
+        break;
+    case TAG(0x7FE0, 0x0010):
+        seen->pixels = true;
+        seen->pixel_length = e->length;
+        s->pixel_offset = e->offset;
+        break;
+    default:
+        break;
+    }
+}
+
+static void join(char *out, size_t size, const char *date, const char *time) {
+    snprintf(out, size, "%s%s%s", date, date[0] && time[0] ? " " : "", time);
+}
+
+static bool starts(const char *text, const char *prefix) { return strncmp(text, prefix, strlen(prefix)) == 0; }
+
+/* True where the file is an image of pixels; else says what it is instead. */
+static bool check_kind(ang_dicom_slice *s, const seen *seen) {
+    const char *what = s->modality[0] ? s->modality : "unknown kind";
+    if (seen->functional_groups || s->frames > 1) {
+        s->image = true;
+        snprintf(s->refusal, sizeof s->refusal, "multi-frame image (%d frames): not read yet", s->frames);
+    } else if (seen->float_pixels) {
+        s->image = true;
+        snprintf(s->refusal, sizeof s->refusal, "pixels in floating point: not read yet");
+    } else if (!seen->pixels && !seen->rows && !seen->columns) {
+        snprintf(s->refusal, sizeof s->refusal, "no image (%s)", what);
+    }
+    return s->refusal[0] == 0;
+}
+
+static bool find_coding(ang_dicom_slice *s, const ang_dicom_reader *reader, bool encapsulated) {
+    const char *syntax = s->transfer_syntax;
+    if (reader->memory) {
+        s->coding = ANG_DICOM_DEFLATED;
+    } else if (!encapsulated) {
+        s->coding = reader->big_endian ? ANG_DICOM_BIG_ENDIAN : ANG_DICOM_NATIVE;
+    } else if (strcmp(syntax, "1.2.840.10008.1.2.5") == 0) {
+        s->coding = ANG_DICOM_RLE;
+    } else {
+        s->coding = ANG_DICOM_ENCAPSULATED;
+        int kind = starts(syntax, "1.2.840.10008.1.2.4.") ? atoi(syntax + 20) : 0;
+        bool lossless = kind == 57 || kind == 70 || kind == 80 || kind == 90;
+        /* .91 may be either: LossyImageCompression has the word. */
+        if (!lossless && kind != 91 && kind != 203) s->lossy = true;
+        if (kind < 50 || kind > 93) return false;
+    }
+    return true;
+}
+
+/* A JPEG 2000 stream's precision and sign win over a wrong header (rule 9). The stream follows the item of the basic
+ * offset table and its own item's head. */
+static void adopt_jpeg2000(ang_dicom_slice *s, ang_dicom_reader *reader) {
+    const uint8_t *head = ang_dicom_bytes(reader, s->pixel_offset, 8);
+    uint32_t table = head ? (uint32_t)head[7] << 24 | (uint32_t)head[6] << 16 | (uint32_t)head[5] << 8 | head[4] : 0;
+    uint64_t at = s->pixel_offset + 16 + table;
+    size_t length = 512;
+    if (at < reader->size && reader->size - at < length) length = (size_t)(reader->size - at);
+    const uint8_t *stream = head ? ang_dicom_bytes(reader, at, length) : NULL;
+    ang_dicom_stream header;
+    if (!stream || !ang_dicom_stream_header(stream, length, &header) || !header.jpeg2000) return;
+    if (header.precision > 16 || header.precision > s->bits_allocated) return;
+    s->bits_stored = header.precision;
+    s->high_bit = header.precision - 1;
+    s->is_signed = s->is_signed || header.is_signed;
+}
+
+/* What an image must have, against what the file holds: nothing is allocated for a claim that the file cannot keep. */
+static bool check_pixels(ang_dicom_slice *s, const seen *seen, ang_dicom_reader *reader, const char *label,
+                         ang_error *err) {
+    static const char missing[] = "%s: (%04X,%04X) %s is missing%s";
+    const char *cut = reader->truncated ? ": the file is cut off" : "";
+    if (!seen->rows || s->rows == 0) return ang_fail(err, ANG_INPUT, missing, label, 0x28, 0x10, "Rows", cut);
+    if (!seen->columns || s->columns == 0) return ang_fail(err, ANG_INPUT, missing, label, 0x28, 0x11, "Columns", cut);
+    if (!seen->bits_allocated) return ang_fail(err, ANG_INPUT, missing, label, 0x28, 0x100, "BitsAllocated", cut);
+    if (!seen->pixels) return ang_fail(err, ANG_INPUT, missing, label, 0x7FE0, 0x10, "PixelData", cut);
+    if (!seen->bits_stored) s->bits_stored = s->bits_allocated;
+    if (!seen->high_bit) s->high_bit = s->bits_stored - 1;
+
+    if (s->samples != 1) {
+        snprintf(s->refusal, sizeof s->refusal, "colour image (%d samples a pixel)", s->samples);
+        return true;
+    }
+    if (s->bits_allocated != 8 && s->bits_allocated != 16 && s->bits_allocated != 32) {
+        snprintf(s->refusal, sizeof s->refusal, "(0028,0100) BitsAllocated %d: only 8, 16 and 32 are read",
+                 s->bits_allocated);
+        return true;
+    }
+    if (s->bits_stored < 1 || s->bits_stored > s->bits_allocated)
+        return ang_fail(err, ANG_INPUT, "%s: (0028,0101) BitsStored %d does not fit BitsAllocated %d", label,
+                        s->bits_stored, s->bits_allocated);
+    if (s->high_bit < s->bits_stored - 1 || s->high_bit >= s->bits_allocated)
+        return ang_fail(err, ANG_INPUT, "%s: (0028,0102) HighBit %d does not fit BitsStored %d", label, s->high_bit,
+                        s->bits_stored);
+    if (s->bits_stored > 16) {
+        snprintf(s->refusal, sizeof s->refusal, "(0028,0101) BitsStored %d: more than 16 bits", s->bits_stored);
+        return true;
+    }
+    bool encapsulated = seen->pixel_length == ANG_DICOM_UNDEFINED;
+    uint64_t left = reader->size - s->pixel_offset, needed = ang_dicom_pixel_bytes(s);
+    if (!find_coding(s, reader, encapsulated)) {
+        snprintf(s->refusal, sizeof s->refusal, "transfer syntax %.40s: not supported", s->transfer_syntax);
+        return true;
+    }
+    s->pixel_length = encapsulated ? left : needed;
+    if (encapsulated) {
+        /* No codec packs a picture 4096 times: such a claim would only cost memory. */
+        if (needed / 4096 > left + 4096)
+            return ang_fail(err, ANG_INPUT, "%s: %d x %d pixels cannot be in %llu bytes of (7FE0,0010) PixelData",
+                            label, s->columns, s->rows, (unsigned long long)left);
+        if (s->coding == ANG_DICOM_ENCAPSULATED) adopt_jpeg2000(s, reader);
+        return true;
+    }
+    if (seen->pixel_length < needed && seen->pixel_length <= left)
+        return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData has %u bytes, Rows x Columns need %llu", label,
+                        seen->pixel_length, (unsigned long long)needed);
+    if (left < needed)
+        return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is cut off: %llu of %llu bytes", label,
+                        (unsigned long long)left, (unsigned long long)needed);
+    return true;
+}
+
+ang_dicom_found ang_dicom_header(const char *path, const char *label, ang_dicom_reader *reader, ang_dicom_slice *slice,
+                                 ang_error *err) {
+    ang_dicom_found found = ang_dicom_open(reader, path, label, err);
+    if (found != ANG_DICOM_FOUND) {
+        ang_dicom_close(reader);
+        return found;
+    }
+    size_t file = slice->file;
+    *slice = (ang_dicom_slice){.file = file, .samples = 1, .frames = 1};
+    snprintf(slice->transfer_syntax, sizeof slice->transfer_syntax, "%s", reader->transfer_syntax);
+    seen seen = {0};
+    size_t count = 0;
+    for (ang_dicom_element element; ang_dicom_next(reader, &element); count++) {
+        uint32_t group = element.tag >> 16;
+        if (group == 0x0008 || group == 0x0020) take_identity(reader, &element, slice, &seen);
+        if (group == 0x0018 || group == 0x0020 || group == 0x0028) take_geometry(reader, &element, slice);
+        if (group >= 0x0028) take_pixels(reader, &element, slice, &seen);
+    }
+    join(slice->acquisition_time, sizeof slice->acquisition_time, seen.acquisition_date, seen.acquisition_time);
+    join(slice->content_time, sizeof slice->content_time, seen.content_date, seen.content_time);
+
+    bool ok = true;
+    if (!slice->sop_class[0]) snprintf(slice->sop_class, sizeof slice->sop_class, "%s", reader->media_class);
+    if (strcmp(slice->sop_class, "1.2.840.10008.1.3.10") == 0) {
+        found = ANG_DICOM_FOREIGN; /* a DICOMDIR: an index of the files beside it */
+    } else if (count == 0 || (!slice->sop_class[0] && !seen.rows && !seen.pixels)) {
+        ok = ang_fail(err, ANG_INPUT, "%s: (0008,0016) SOPClassUID is missing%s: no DICOM image", label,
+                      reader->truncated ? " and the file is cut off" : "");
+    } else if (check_kind(slice, &seen)) {
+        slice->image = true;
+        ok = check_pixels(slice, &seen, reader, label, err);
+    }
+    ang_dicom_close(reader);
+    return ok ? found : ANG_DICOM_BROKEN;
+}

@@ -1,0 +1,393 @@
+#include "io/dicom/parse.h"
+
+#include "core/base/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+enum { max_depth = 32 };
+
+#define TAG(group, element) ((uint32_t)(group) << 16 | (element))
+
+const uint8_t *ang_dicom_bytes(ang_dicom_reader *reader, uint64_t offset, size_t length) {
+    if (length > ang_dicom_value_size || offset > reader->size || reader->size - offset < length) return NULL;
+    if (reader->memory) return reader->memory + offset;
+    if (offset < reader->window_at || offset - reader->window_at + length > reader->window_length) {
+        reader->window_at = offset;
+        reader->window_length = 0;
+        while (reader->window_length < ang_dicom_window_size) {
+            ssize_t got = pread(reader->fd, reader->window + reader->window_length,
+                                ang_dicom_window_size - reader->window_length, (off_t)(offset + reader->window_length));
+            if (got < 0 && errno == EINTR) continue;
+            if (got <= 0) break;
+            reader->window_length += (size_t)got;
+        }
+        if (reader->window_length < length) return NULL;
+    }
+    return reader->window + (offset - reader->window_at);
+}
+
+static uint16_t get16(const uint8_t *p, bool big) {
+    return big ? (uint16_t)(p[0] << 8 | p[1]) : (uint16_t)(p[1] << 8 | p[0]);
+}
+
+static uint32_t get32(const uint8_t *p, bool big) {
+    return big ? (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3]
+               : (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
+}
+
+static bool is_vr(const uint8_t *p) { return p[0] >= 'A' && p[0] <= 'Z' && p[1] >= 'A' && p[1] <= 'Z'; }
+
+static bool one_of(const uint8_t *vr, const char *list) {
+    for (; *list; list += 2) {
+        if (vr[0] == list[0] && vr[1] == list[1]) return true;
+    }
+    return false;
+}
+
+/* PS3.5 7.1.2: these have two length bytes; every other VR, future ones too, has two reserved bytes and four. */
+static bool is_short_vr(const uint8_t *vr) { return one_of(vr, "AEASATCSDADSDTFLFDISLOLTPNSHSLSSSTTMUIULUS"); }
+
+/* The head of the element at reader->next, whose value starts at element->offset. */
+static bool read_head(ang_dicom_reader *reader, bool is_explicit, bool big, uint64_t at, ang_dicom_element *element) {
+    const uint8_t *p = ang_dicom_bytes(reader, at, 8);
+    if (!p) return false;
+    element->tag = TAG(get16(p, big), get16(p + 2, big));
+    element->vr[0] = 0;
+    element->offset = at + 8;
+    element->length = get32(p + 4, big);
+    if (element->tag >> 16 == 0xFFFE) return true;
+    if (!is_explicit || !is_vr(p + 4)) return true;
+    memcpy(element->vr, p + 4, 2);
+    element->vr[2] = 0;
+    if (is_short_vr(p + 4)) {
+        element->length = get16(p + 6, big);
+        return true;
+    }
+    p = ang_dicom_bytes(reader, at + 8, 4);
+    if (!p) return false;
+    element->length = get32(p, big);
+    element->offset = at + 12;
+    return true;
+}
+
+/* Steps over the items of a sequence of undefined length; returns the offset behind its delimiter, or 0. */
+static uint64_t skip_sequence(ang_dicom_reader *reader, uint64_t at, bool is_explicit, bool big, int depth) {
+    if (depth > max_depth) return 0;
+    for (;;) {
+        ang_dicom_element item;
+        if (!read_head(reader, is_explicit, big, at, &item)) return 0;
+        at = item.offset;
+        if (item.tag == TAG(0xFFFE, 0xE0DD)) return at;
+        if (item.tag != TAG(0xFFFE, 0xE000)) return 0;
+        if (item.length != ANG_DICOM_UNDEFINED) {
+            if (item.length > reader->size - at) return 0;
+            at += item.length;
+            continue;
+        }
+        for (;;) {
+            ang_dicom_element inner;
+            if (!read_head(reader, is_explicit, big, at, &inner)) return 0;
+            at = inner.offset;
+            if (inner.tag == TAG(0xFFFE, 0xE00D)) break;
+            if (inner.length == ANG_DICOM_UNDEFINED) {
+                bool unknown = strcmp(inner.vr, "UN") == 0; /* PS3.5 6.2.2: implicit little endian inside */
+                at = skip_sequence(reader, at, is_explicit && !unknown, big && !unknown, depth + 1);
+                if (!at) return 0;
+            } else {
+                if (inner.length > reader->size - at) return 0;
+                at += inner.length;
+            }
+        }
+    }
+}
+
+bool ang_dicom_next(ang_dicom_reader *reader, ang_dicom_element *element) {
+    bool is_explicit = reader->in_meta || reader->is_explicit, big = !reader->in_meta && reader->big_endian;
+    for (;;) {
+        if (reader->next >= reader->size) return false;
+        if (!read_head(reader, is_explicit, big, reader->next, element)) {
+            reader->truncated = reader->size - reader->next >= 8;
+            return false;
+        }
+        if (element->tag >> 16 != 0xFFFE) break;
+        reader->next = element->offset; /* a stray delimiter */
+    }
+    if (element->tag == TAG(0x7FE0, 0x0010) || element->tag == TAG(0x7FE0, 0x0008) ||
+        element->tag == TAG(0x7FE0, 0x0009)) {
+        reader->next = reader->size; /* the pixels end what the rules need */
+        return true;
+    }
+    if (element->length == ANG_DICOM_UNDEFINED) {
+        bool unknown = strcmp(element->vr, "UN") == 0;
+        uint64_t after = skip_sequence(reader, element->offset, is_explicit && !unknown, big && !unknown, 0);
+        if (!after) {
+            reader->truncated = true;
+            reader->next = reader->size;
+            return false;
+        }
+        reader->next = after;
+    } else if (element->length > reader->size - element->offset) {
+        reader->truncated = true;
+        reader->next = reader->size;
+        return false;
+    } else {
+        reader->next = element->offset + element->length;
+    }
+    return true;
+}
+
+bool ang_dicom_text(ang_dicom_reader *reader, const ang_dicom_element *element, char *out, size_t size) {
+    out[0] = 0;
+    if (element->length == 0 || element->length > ang_dicom_value_size) return false;
+    const uint8_t *p = ang_dicom_bytes(reader, element->offset, element->length);
+    if (!p) return false;
+    size_t begin = 0, end = element->length;
+    while (begin < end && (p[begin] == ' ' || p[begin] == 0)) begin++;
+    while (end > begin && (p[end - 1] == ' ' || p[end - 1] == 0)) end--;
+    if (end - begin >= size) end = begin + size - 1;
+    memcpy(out, p + begin, end - begin);
+    out[end - begin] = 0;
+    for (char *c = out; *c; c++) {
+        if ((unsigned char)*c < ' ' || *c == 127) *c = ' ';
+    }
+    return out[0] != 0;
+}
+
+/* Numbers of a binary VR; -1 where the VR is not one. */
+static int binary_numbers(ang_dicom_reader *reader, const ang_dicom_element *element, double *out, int count) {
+    static const char codes[] = "USSSULSLFLFD";
+    int kind = -1;
+    for (int i = 0; i < 6; i++) {
+        if (memcmp(element->vr, codes + 2 * i, 2) == 0) kind = i;
+    }
+    if (kind < 0) return -1;
+    size_t size = kind < 2 ? 2 : kind < 5 ? 4 : 8;
+    int n = 0;
+    for (; n < count && (size_t)(n + 1) * size <= element->length; n++) {
+        const uint8_t *p = ang_dicom_bytes(reader, element->offset + (uint64_t)n * size, size);
+        if (!p) break;
+        uint32_t low = size == 2 ? get16(p, reader->big_endian) : get32(p, reader->big_endian);
+        if (kind == 0 || kind == 2) out[n] = low;
+        if (kind == 1) out[n] = (int16_t)low;
+        if (kind == 3) out[n] = (int32_t)low;
+        if (kind == 4) {
+            float value;
+            memcpy(&value, &low, sizeof value);
+            out[n] = (double)value;
+        }
+        if (kind == 5) {
+            uint32_t high = get32(p + 4, reader->big_endian);
+            uint64_t bits = reader->big_endian ? (uint64_t)low << 32 | high : (uint64_t)high << 32 | low;
+            memcpy(&out[n], &bits, sizeof bits);
+        }
+        if (!isfinite(out[n])) break;
+    }
+    return n;
+}
+
+int ang_dicom_numbers(ang_dicom_reader *reader, const ang_dicom_element *element, double *out, int count) {
+    if (element->vr[0]) {
+        int n = binary_numbers(reader, element, out, count);
+        if (n >= 0) return n;
+    }
+    char text[512];
+    if (!ang_dicom_text(reader, element, text, sizeof text)) return 0;
+    int n = 0;
+    for (char *p = text; n < count;) {
+        /* strtod would follow the locale and take hexadecimal: the decimal strings of PS3.5 6.2 have neither. */
+        char *end = p;
+        while (*end && *end != '\\') end++;
+        char last = *end;
+        *end = 0;
+        while (*p == ' ') p++;
+        bool negative = *p == '-';
+        if (*p == '-' || *p == '+') p++;
+        double value = 0, scale = 1;
+        int digits = 0, exponent = 0;
+        bool point = false;
+        for (; (*p >= '0' && *p <= '9') || (*p == '.' && !point); p++) {
+            if (*p == '.') {
+                point = true;
+                continue;
+            }
+            value = value * 10 + (*p - '0');
+            if (point) scale *= 10;
+            digits++;
+        }
+        if (digits && (*p == 'e' || *p == 'E')) exponent = atoi(p + 1);
+        if (!digits) return n;
+        value /= scale;
+        if (exponent) value *= pow(10, exponent);
+        if (!isfinite(value)) return n;
+        out[n++] = negative ? -value : value;
+        if (!last) break;
+        p = end + 1;
+    }
+    return n;
+}
+
+bool ang_dicom_word(ang_dicom_reader *reader, const ang_dicom_element *element, uint16_t *out) {
+    if (element->length < 2) return false;
+    const uint8_t *p = ang_dicom_bytes(reader, element->offset, 2);
+    if (p) *out = get16(p, reader->big_endian);
+    return p != NULL;
+}
+
+/* Whether a data set may start at `at`: a tag of group 2 or 8 with a length that fits, then another, greater tag. */
+static bool plausible(ang_dicom_reader *reader, uint64_t at, bool is_explicit, bool big) {
+    uint32_t last = 0;
+    for (int i = 0; i < 3; i++) {
+        ang_dicom_element element;
+        if (at == reader->size && i > 0) return true;
+        if (!read_head(reader, is_explicit, big, at, &element)) return false;
+        uint32_t group = element.tag >> 16;
+        if (i == 0 && group != 0x0002 && group != 0x0008) return false;
+        if (element.tag <= last || (is_explicit && !element.vr[0])) return false;
+        if (element.length == ANG_DICOM_UNDEFINED) return i > 0;
+        if (element.length > reader->size - element.offset) return false;
+        last = element.tag;
+        at = element.offset + element.length;
+    }
+    return true;
+}
+
+/* Finds explicit or implicit VR and the byte order by looking (no transfer syntax, or a wrong one). */
+static bool guess_coding(ang_dicom_reader *reader) {
+    for (int i = 0; i < 4; i++) {
+        bool is_explicit = i % 2 == 0, big = i / 2 == 1;
+        if (!plausible(reader, reader->next, is_explicit, big)) continue;
+        reader->is_explicit = is_explicit;
+        reader->big_endian = big;
+        return true;
+    }
+    return false;
+}
+
+static void read_meta(ang_dicom_reader *reader) {
+    reader->in_meta = true;
+    for (;;) {
+        uint64_t at = reader->next;
+        const uint8_t *p = ang_dicom_bytes(reader, at, 8);
+        ang_dicom_element element;
+        if (!p || get16(p, false) != 2 || !ang_dicom_next(reader, &element)) break;
+        if (element.tag == TAG(2, 0x0002))
+            ang_dicom_text(reader, &element, reader->media_class, sizeof reader->media_class);
+        if (element.tag == TAG(2, 0x0010))
+            ang_dicom_text(reader, &element, reader->transfer_syntax, sizeof reader->transfer_syntax);
+    }
+    reader->in_meta = false;
+}
+
+ang_dicom_found ang_dicom_open(ang_dicom_reader *reader, const char *path, const char *label, ang_error *err) {
+    reader->memory = NULL;
+    reader->size = reader->next = reader->window_at = 0;
+    reader->window_length = 0;
+    reader->big_endian = reader->in_meta = reader->truncated = false;
+    reader->is_explicit = true;
+    reader->transfer_syntax[0] = reader->media_class[0] = 0;
+    reader->fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat status;
+    if (reader->fd < 0 || fstat(reader->fd, &status) != 0) {
+        ang_fail(err, ANG_INPUT, "%s: %s", label, strerror(errno));
+        return ANG_DICOM_BROKEN;
+    }
+    if (!S_ISREG(status.st_mode)) return ANG_DICOM_FOREIGN;
+    reader->size = (uint64_t)status.st_size;
+
+    const uint8_t *magic = ang_dicom_bytes(reader, 128, 4);
+    bool has_magic = magic && memcmp(magic, "DICM", 4) == 0;
+    if (has_magic) reader->next = 132;
+    const uint8_t *first = ang_dicom_bytes(reader, reader->next, 8);
+    if (!first) {
+        if (!has_magic) return ANG_DICOM_FOREIGN;
+        ang_fail(err, ANG_INPUT, "%s: ends after its DICOM preamble", label);
+        return ANG_DICOM_BROKEN;
+    }
+    if (!has_magic && !guess_coding(reader)) return ANG_DICOM_FOREIGN;
+    if (get16(first, false) == 2) read_meta(reader);
+
+    const char *syntax = reader->transfer_syntax;
+    if (strcmp(syntax, "1.2.840.10008.1.2.1.99") == 0) {
+        uint64_t size;
+        uint8_t *memory = ang_dicom_inflate(reader->fd, reader->next, reader->size, &size, label, err);
+        if (!memory) return ANG_DICOM_BROKEN;
+        reader->memory = memory;
+        reader->size = size;
+        reader->next = 0;
+    }
+    bool big = strcmp(syntax, "1.2.840.10008.1.2.2") == 0, implicit = strcmp(syntax, "1.2.840.10008.1.2") == 0;
+    if (syntax[0] && plausible(reader, reader->next, !implicit, big)) {
+        reader->is_explicit = !implicit;
+        reader->big_endian = big;
+    } else if (!guess_coding(reader)) {
+        /* An odd first element decides nothing: what the transfer syntax says stands. */
+        reader->is_explicit = !implicit;
+        reader->big_endian = big;
+    }
+    return ANG_DICOM_FOUND;
+}
+
+void ang_dicom_close(ang_dicom_reader *reader) {
+    if (reader->fd >= 0) close(reader->fd);
+    free(reader->memory);
+    reader->fd = -1;
+    reader->memory = NULL;
+}
+
+uint8_t *ang_dicom_inflate(int fd, uint64_t offset, uint64_t file_size, uint64_t *size, const char *label,
+                           ang_error *err) {
+    enum { chunk = 65536 };
+    uint64_t limit = UINT64_C(1) << 30; /* a slice of a gigabyte is no slice */
+    uint8_t *in = ang_alloc(chunk, 1, "compressed bytes", err), *out = NULL;
+    if (!in) return NULL;
+    z_stream stream = {0};
+    bool ok = inflateInit2(&stream, -MAX_WBITS) == Z_OK;
+    uint64_t capacity = 0, length = 0;
+    int state = Z_OK;
+    while (ok && state == Z_OK) {
+        if (stream.avail_in == 0) {
+            ssize_t got = offset < file_size ? pread(fd, in, chunk, (off_t)offset) : 0;
+            if (got <= 0) break;
+            offset += (uint64_t)got;
+            stream.next_in = in;
+            stream.avail_in = (uInt)got;
+        }
+        if (length == capacity) {
+            capacity = capacity ? capacity * 2 : 4 * chunk;
+            uint8_t *grown = capacity <= limit ? realloc(out, capacity) : NULL;
+            if (!grown) {
+                ang_fail(err, ANG_LIMIT, "%s: its deflated data set is too large", label);
+                ok = false;
+                break;
+            }
+            out = grown;
+        }
+        stream.next_out = out + length;
+        stream.avail_out = (uInt)(capacity - length);
+        state = inflate(&stream, Z_NO_FLUSH);
+        length = capacity - stream.avail_out;
+    }
+    inflateEnd(&stream);
+    free(in);
+    if (ok && state != Z_STREAM_END && state != Z_OK) {
+        ang_fail(err, ANG_INPUT, "%s: its deflated data set is damaged", label);
+        ok = false;
+    }
+    if (ok && length == 0) {
+        ang_fail(err, ANG_INPUT, "%s: its deflated data set is empty", label);
+        ok = false;
+    }
+    if (!ok) {
+        free(out);
+        return NULL;
+    }
+    *size = length;
+    return out;
+}

@@ -1,0 +1,368 @@
+#include "io/dicom/series.h"
+
+#include "core/base/memory.h"
+#include "io/dicom/geometry.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { phase_keys = 5 };
+
+static const double same_position_mm = 1e-3, same_cosine = 1e-4;
+
+void ang_dicom_groups_clear(ang_dicom_groups *groups) {
+    for (size_t i = 0; i < groups->count; i++) free(groups->group[i].order);
+    free(groups->group);
+    *groups = (ang_dicom_groups){0};
+}
+
+static bool near_vectors(ang_vec3 a, ang_vec3 b) {
+    return fabs(a.x - b.x) <= same_cosine && fabs(a.y - b.y) <= same_cosine && fabs(a.z - b.z) <= same_cosine;
+}
+
+/* The first three values: further ones are the vendor's and change within one volume (GE: ADD where neighbouring scans
+ * were summed). Where they do tell volumes apart, positions repeat, and phase_key() looks at all of them. */
+static bool same_image_type(const ang_dicom_slice *a, const ang_dicom_slice *b) {
+    for (int i = 0; i < 3; i++) {
+        char left[65], right[65];
+        ang_dicom_value(a->image_type, i, left, sizeof left);
+        ang_dicom_value(b->image_type, i, right, sizeof right);
+        if (strcmp(left, right) != 0) return false;
+    }
+    return true;
+}
+
+/* Whether two slices of one series may belong to one volume (rule 1). */
+static bool alike(const ang_dicom_slice *a, const ang_dicom_slice *b) {
+    if (strcmp(a->refusal, b->refusal) != 0 || a->image != b->image) return false;
+    if (!a->image) return true;
+    if (a->rows != b->rows || a->columns != b->columns || !same_image_type(a, b)) return false;
+    if (strcmp(a->stack_id, b->stack_id) != 0 || strcmp(a->modality, b->modality) != 0) return false;
+    if (a->has_orientation != b->has_orientation || a->has_position != b->has_position) return false;
+    if (a->has_orientation && (!near_vectors(a->row, b->row) || !near_vectors(a->column, b->column))) return false;
+    if (a->has_spacing != b->has_spacing) return false;
+    return !a->has_spacing || (fabs(a->row_spacing - b->row_spacing) <= 1e-4 * a->row_spacing &&
+                               fabs(a->column_spacing - b->column_spacing) <= 1e-4 * a->column_spacing);
+}
+
+/* A new group that takes `order` over, also where it fails. */
+static ang_dicom_group *add_group(ang_dicom_groups *groups, size_t *order, size_t count, ang_error *err) {
+    ang_dicom_group *grown = realloc(groups->group, (groups->count + 1) * sizeof *grown);
+    if (!grown) {
+        free(order);
+        ang_fail(err, ANG_LIMIT, "no memory for the list of series");
+        return NULL;
+    }
+    groups->group = grown;
+    grown[groups->count] = (ang_dicom_group){.order = order, .count = count, .phases = 1};
+    return &grown[groups->count++];
+}
+
+/* The values that tell the volumes of one series apart, best first; false where a slice has none of this kind. */
+static bool phase_key(const ang_dicom_slice *slice, int kind, char *out, size_t size) {
+    switch (kind) {
+    case 0:
+        snprintf(out, size, "%s", slice->image_type);
+        return out[0] != 0;
+    case 1:
+        snprintf(out, size, "%d", slice->temporal_position);
+        return slice->has_temporal_position;
+    case 2:
+        snprintf(out, size, "%d", slice->acquisition_number);
+        return slice->has_acquisition_number;
+    case 3:
+        snprintf(out, size, "%s", slice->acquisition_time);
+        return out[0] != 0;
+    default:
+        snprintf(out, size, "%s", slice->content_time);
+        return out[0] != 0;
+    }
+}
+
+/* Numbers every slice of the sorted group by its volume, by a key that has exactly `phases` values and none twice at a
+ * position; false where `kind` is no such key. */
+static bool phases_by_key(const ang_dicom_slice *slices, const ang_dicom_group *group, const size_t *place, int phases,
+                          int kind, int *phase) {
+    char known[64][129];
+    int count = 0;
+    if (phases > 64) return false;
+    for (size_t i = 0; i < group->count; i++) {
+        char key[129];
+        if (!phase_key(&slices[group->order[i]], kind, key, sizeof key)) return false;
+        int k = 0;
+        while (k < count && strcmp(known[k], key) != 0) k++;
+        if (k == count) {
+            if (count == phases) return false;
+            memcpy(known[count++], key, sizeof key);
+        }
+        phase[i] = k;
+        for (size_t j = i; j-- > 0 && place[j] == place[i];) {
+            if (phase[j] == k) return false;
+        }
+    }
+    return count == phases;
+}
+
+/* The n-th slice at a position, in order of instance number, belongs to the n-th volume. */
+static void phases_by_rank(const size_t *place, size_t count, int *phase) {
+    for (size_t i = 0; i < count; i++) phase[i] = i > 0 && place[i] == place[i - 1] ? phase[i - 1] + 1 : 0;
+}
+
+/* Drops duplicates from a sorted group and numbers positions in `place`; returns how many volumes share them. */
+static int drop_duplicates(const ang_dicom_slice *slices, ang_dicom_group *group, ang_dicom_same_pixels *same,
+                           void *context, size_t *place) {
+    size_t kept = 0;
+    int phases = 1;
+    ang_vec3 normal = ang_dicom_normal(&slices[group->order[0]]);
+    for (size_t i = 0; i < group->count; i++) {
+        size_t slice = group->order[i];
+        double s = ang_dicom_along(&slices[slice], normal);
+        size_t first = kept; /* of the slices kept at this position */
+        bool duplicate = false;
+        while (first > 0 && s - ang_dicom_along(&slices[group->order[first - 1]], normal) <= same_position_mm) first--;
+        for (size_t j = first; j < kept && !duplicate; j++) duplicate = same && same(context, group->order[j], slice);
+        if (duplicate) {
+            group->duplicates++;
+            continue;
+        }
+        place[kept] = first < kept ? place[kept - 1] : kept ? place[kept - 1] + 1 : 0;
+        group->order[kept++] = slice;
+        if ((int)(kept - first) > phases) phases = (int)(kept - first);
+    }
+    group->count = kept;
+    return phases;
+}
+
+/* Sorts group `index`, drops its duplicates and splits it where positions repeat with other pixels (rule 6). */
+static bool resolve_positions(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_t index,
+                              ang_dicom_same_pixels *same, void *context, ang_error *err) {
+    ang_dicom_group *group = &groups->group[index];
+    ang_dicom_sort(slices, group->order, group->count, NULL);
+    const ang_dicom_slice *first = &slices[group->order[0]];
+    if (!first->image || first->refusal[0] || !first->has_position || !first->has_orientation) return true;
+
+    size_t count = group->count;
+    size_t *place = ang_alloc(count, sizeof *place, "positions", err);
+    int *phase = place ? ang_alloc(count, sizeof *phase, "phases", err) : NULL;
+    bool ok = phase != NULL;
+    int phases = ok ? drop_duplicates(slices, group, same, context, place) : 1;
+    if (phases > 1) {
+        int kind = 0;
+        while (kind < phase_keys && !phases_by_key(slices, group, place, phases, kind, phase)) kind++;
+        if (kind == phase_keys) phases_by_rank(place, group->count, phase);
+        size_t *old = group->order, old_count = group->count;
+        for (int p = 0; ok && p < phases; p++) {
+            size_t *order = ang_alloc(old_count, sizeof *order, "phases", err), n = 0;
+            if (!order) {
+                ok = false;
+                break;
+            }
+            for (size_t i = 0; i < old_count; i++) {
+                if (phase[i] == p) order[n++] = old[i];
+            }
+            ang_dicom_group *part = &groups->group[index];
+            if (p == 0) {
+                part->order = order;
+                part->count = n;
+            } else {
+                part = add_group(groups, order, n, err);
+            }
+            if (part) part->phases = phases;
+            ok = part != NULL;
+        }
+        if (groups->group[index].order != old) free(old);
+    }
+    free(place);
+    free(phase);
+    return ok;
+}
+
+static bool is_type(const ang_dicom_slice *slice, int index, const char *value) {
+    char text[65];
+    ang_dicom_value(slice->image_type, index, text, sizeof text);
+    return strcmp(text, value) == 0;
+}
+
+/* A group's place among others: does its series have a larger one? */
+static bool has_larger_sibling(const ang_dicom_slice *slices, const ang_dicom_groups *groups, size_t index) {
+    const ang_dicom_group *group = &groups->group[index];
+    for (size_t i = 0; i < groups->count; i++) {
+        const ang_dicom_group *other = &groups->group[i];
+        if (i != index && other->count > group->count && slices[other->order[0]].image &&
+            strcmp(slices[other->order[0]].series_uid, slices[group->order[0]].series_uid) == 0)
+            return true;
+    }
+    return false;
+}
+
+static void judge(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_t index) {
+    ang_dicom_group *group = &groups->group[index];
+    const ang_dicom_slice *first = &slices[group->order[0]];
+    char kind[65];
+    ang_dicom_value(first->image_type, 2, kind, sizeof kind);
+    bool capture = strcmp(first->sop_class, "1.2.840.10008.5.1.4.1.1.7") == 0;
+    group->derived = capture || (is_type(first, 0, "DERIVED") && is_type(first, 1, "SECONDARY"));
+    group->loadable = false;
+    if (first->refusal[0]) {
+        snprintf(group->remark, sizeof group->remark, "%s", first->refusal);
+    } else if (strcmp(kind, "LOCALIZER") == 0) {
+        snprintf(group->remark, sizeof group->remark, "localizer");
+    } else if (group->derived && (capture || !first->has_position)) {
+        snprintf(group->remark, sizeof group->remark, "derived summary%s%.60s%s", kind[0] ? " (" : "", kind,
+                 kind[0] ? ")" : "");
+    } else if (group->count == 1 && has_larger_sibling(slices, groups, index)) {
+        snprintf(group->remark, sizeof group->remark, "localizer: a single slice that differs from its series");
+    } else if (group->count == 1 && !first->has_position) {
+        snprintf(group->remark, sizeof group->remark, "single picture without a position");
+    } else {
+        group->loadable = true;
+        if (group->phases > 1)
+            snprintf(group->remark, sizeof group->remark, "one of %d volumes at the same positions", group->phases);
+        else if (group->count == 1)
+            snprintf(group->remark, sizeof group->remark, "single slice");
+        else if (group->derived)
+            snprintf(group->remark, sizeof group->remark, "derived");
+    }
+}
+
+typedef struct listed {
+    ang_dicom_group group;
+    const ang_dicom_slice *first;
+} listed;
+
+/* By series number, then by the first file, so that the numbers do not depend on how the folder was read. */
+static int compare_listed(const void *left, const void *right) {
+    const listed *a = left, *b = right;
+    if (a->first->series_number != b->first->series_number)
+        return a->first->series_number < b->first->series_number ? -1 : 1;
+    int uid = strcmp(a->first->series_uid, b->first->series_uid);
+    if (uid != 0) return uid;
+    if (a->group.count != b->group.count) return a->group.count > b->group.count ? -1 : 1;
+    return a->first->file < b->first->file ? -1 : a->first->file > b->first->file;
+}
+
+static bool list_groups(const ang_dicom_slice *slices, ang_dicom_groups *groups, ang_error *err) {
+    if (groups->count == 0) return true;
+    listed *list = ang_alloc(groups->count, sizeof *list, "list of series", err);
+    if (!list) return false;
+    for (size_t i = 0; i < groups->count; i++) list[i] = (listed){groups->group[i], &slices[groups->group[i].order[0]]};
+    qsort(list, groups->count, sizeof *list, compare_listed);
+    for (size_t i = 0; i < groups->count; i++) groups->group[i] = list[i].group;
+    free(list);
+    return true;
+}
+
+static int compare_uids(const void *left, const void *right, void *context) {
+    const ang_dicom_slice *slices = context;
+    size_t i = *(const size_t *)left, j = *(const size_t *)right;
+    int uid = strcmp(slices[i].series_uid, slices[j].series_uid);
+    return uid ? uid : i < j ? -1 : i > j;
+}
+
+/* Slices whose series agree, in runs of `order`; `group_of` is scratch. */
+static bool split_series(const ang_dicom_slice *slices, const size_t *order, size_t count, ang_dicom_groups *groups,
+                         size_t *group_of, ang_error *err) {
+    size_t begin = groups->count;
+    for (size_t i = 0; i < count; i++) {
+        size_t g = begin;
+        while (g < groups->count && !alike(&slices[groups->group[g].order[0]], &slices[order[i]])) g++;
+        if (g == groups->count) {
+            size_t *first = ang_alloc(1, sizeof *first, "list of slices", err);
+            if (!first || !add_group(groups, first, 0, err)) return false;
+            first[0] = order[i]; /* stands for the group until it is filled */
+        }
+        group_of[i] = g;
+        groups->group[g].count++;
+    }
+    for (size_t g = begin; g < groups->count; g++) {
+        size_t *members = ang_alloc(groups->group[g].count, sizeof *members, "list of slices", err), n = 0;
+        if (!members) return false;
+        for (size_t i = 0; i < count; i++) {
+            if (group_of[i] == g) members[n++] = order[i];
+        }
+        free(groups->group[g].order);
+        groups->group[g].order = members;
+    }
+    return true;
+}
+
+bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dicom_same_pixels *same, void *context,
+                            ang_dicom_groups *groups, ang_error *err) {
+    *groups = (ang_dicom_groups){0};
+    if (count == 0) return true;
+    size_t *order = ang_alloc(count, 2 * sizeof *order, "list of slices", err);
+    if (!order) return false;
+    for (size_t i = 0; i < count; i++) order[i] = i;
+    qsort_r(order, count, sizeof *order, compare_uids, (void *)(uintptr_t)slices);
+    bool ok = true;
+    for (size_t begin = 0, end; ok && begin < count; begin = end) {
+        for (end = begin + 1; end < count; end++) {
+            if (strcmp(slices[order[end]].series_uid, slices[order[begin]].series_uid) != 0) break;
+        }
+        ok = split_series(slices, order + begin, end - begin, groups, order + count, err);
+    }
+    free(order);
+    size_t before = groups->count;
+    for (size_t i = 0; ok && i < before; i++) ok = resolve_positions(slices, groups, i, same, context, err);
+    ok = ok && list_groups(slices, groups, err);
+    for (size_t i = 0; ok && i < groups->count; i++) judge(slices, groups, i);
+    if (!ok) ang_dicom_groups_clear(groups);
+    return ok;
+}
+
+static bool ends_with(const char *text, const char *end) {
+    size_t a = strlen(text), b = strlen(end);
+    return b > 0 && a >= b && strcmp(text + a - b, end) == 0;
+}
+
+static double worth(const ang_dicom_slice *slices, const ang_dicom_group *group) {
+    const ang_dicom_slice *first = &slices[group->order[0]];
+    double voxels = (double)first->rows * first->columns * (double)group->count;
+    if (group->count == 1) voxels *= 1e-6; /* a volume, if there is one */
+    return voxels * (strcmp(first->modality, "CT") == 0 ? 1e24 : 1) * (group->derived ? 1e-12 : 1);
+}
+
+static bool choose_named(const ang_dicom_slice *slices, const ang_dicom_groups *groups, const char *series,
+                         size_t *chosen, ang_error *err) {
+    char *rest;
+    long number = strtol(series, &rest, 10);
+    size_t found = groups->count;
+    if (*series && !*rest && number >= 1 && (unsigned long)number <= groups->count) {
+        found = (size_t)number - 1;
+    } else {
+        for (size_t i = 0; i < groups->count; i++) {
+            const ang_dicom_group *group = &groups->group[i];
+            if (!ends_with(slices[group->order[0]].series_uid, series)) continue;
+            if (found == groups->count ||
+                (group->loadable &&
+                 (!groups->group[found].loadable || worth(slices, group) > worth(slices, &groups->group[found]))))
+                found = i;
+        }
+    }
+    if (found == groups->count)
+        return ang_fail(err, ANG_INPUT, "--series %s: there are series 1 to %zu, and no UID ends so", series,
+                        groups->count);
+    if (!groups->group[found].loadable)
+        return ang_fail(err, ANG_INPUT, "--series %s: cannot be loaded: %s", series, groups->group[found].remark);
+    *chosen = found;
+    return true;
+}
+
+bool ang_dicom_choose(const ang_dicom_slice *slices, const ang_dicom_groups *groups, const char *series, size_t *chosen,
+                      ang_error *err) {
+    if (series) return choose_named(slices, groups, series, chosen, err);
+    size_t best = groups->count;
+    for (size_t i = 0; i < groups->count; i++) {
+        if (!groups->group[i].loadable) continue;
+        if (best == groups->count || worth(slices, &groups->group[i]) > worth(slices, &groups->group[best])) best = i;
+    }
+    if (best == groups->count) {
+        if (groups->count == 1) return ang_fail(err, ANG_INPUT, "no 3D image series: %s", groups->group[0].remark);
+        return ang_fail(err, ANG_INPUT, "no 3D image series among the %zu found: the first is: %s", groups->count,
+                        groups->count ? groups->group[0].remark : "");
+    }
+    *chosen = best;
+    return true;
+}

@@ -1,0 +1,40 @@
+/* Which slices make one volume: grouping, localizers, phases, duplicates, and the choice of the series to load
+ * (dicom-rules 1 and 6). Pure functions over slice records. */
+#ifndef ANG_DICOM_SERIES_H
+#define ANG_DICOM_SERIES_H
+
+#include "core/base/error.h"
+#include "core/base/notes.h"
+#include "io/dicom/slice.h"
+
+/* Slices that may be one volume, or else what they are. */
+typedef struct ang_dicom_group {
+    size_t *order; /* indices into the slices, sorted by position; duplicates left out */
+    size_t count;
+    int duplicates; /* dropped: same position, same pixels */
+    int phases;     /* > 1: one of several volumes at the same positions */
+    bool loadable;
+    bool derived;     /* ImageType DERIVED\SECONDARY or a secondary capture: loaded only where nothing else is */
+    char remark[128]; /* why it is not loadable, or what it is */
+} ang_dicom_group;
+
+/* In the order in which they are listed. Owns its groups; free with ang_dicom_groups_clear. */
+typedef struct ang_dicom_groups {
+    ang_dicom_group *group;
+    size_t count;
+} ang_dicom_groups;
+
+/* Whether slices `a` and `b` (indices) hold the same pixels. */
+typedef bool ang_dicom_same_pixels(void *context, size_t a, size_t b);
+
+/* Groups `count` slices. `same` is asked only about slices at one position; NULL: never the same. ANG_LIMIT. */
+bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dicom_same_pixels *same, void *context,
+                            ang_dicom_groups *groups, ang_error *err);
+void ang_dicom_groups_clear(ang_dicom_groups *groups);
+
+/* The group to load: number `series` (1, 2, ...) or the one whose SeriesInstanceUID ends in it; NULL: the largest CT
+ * volume, else the largest of another modality. ANG_INPUT where there is none that can be loaded. */
+bool ang_dicom_choose(const ang_dicom_slice *slices, const ang_dicom_groups *groups, const char *series, size_t *chosen,
+                      ang_error *err);
+
+#endif

@@ -1,0 +1,114 @@
+#include "io/dicom/stored.h"
+
+#include <math.h>
+#include <string.h>
+
+ang_dicom_words ang_dicom_words_of(const ang_dicom_slice *slice) {
+    return (ang_dicom_words){.bytes = slice->bits_allocated / 8,
+                             .bits_stored = slice->bits_stored,
+                             .high_bit = slice->high_bit,
+                             .is_signed = slice->is_signed,
+                             .big_endian = slice->coding == ANG_DICOM_BIG_ENDIAN};
+}
+
+static uint16_t convert_word(uint32_t word, int shift, uint32_t mask, uint32_t sign, uint32_t bias) {
+    uint32_t value = word >> shift & mask;
+    return (uint16_t)((value ^ sign) - sign + bias); /* two's complement: flips the sign bit, then takes it off */
+}
+
+void ang_dicom_convert(const void *raw, size_t count, ang_dicom_words words, uint16_t *out) {
+    int shift = words.high_bit - words.bits_stored + 1;
+    uint32_t mask = (UINT32_C(1) << words.bits_stored) - 1;
+    uint32_t sign = words.is_signed ? UINT32_C(1) << (words.bits_stored - 1) : 0;
+    uint32_t bias = words.is_signed ? 32768 : 0;
+    const uint8_t *p = raw;
+    bool little = true;
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    little = false;
+#endif
+    if (words.bytes == 2 && !words.big_endian && little) {
+        if (mask == 0xFFFF && !sign) {
+            if (raw != out) memmove(out, raw, count * 2);
+            return;
+        }
+        if (raw == out) { /* the common case, in place: the compiler makes vector code of it */
+            for (size_t i = 0; i < count; i++) out[i] = convert_word(out[i], shift, mask, sign, bias);
+            return;
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        uint32_t word = 0;
+        const uint8_t *q = p + i * (size_t)words.bytes;
+        for (int b = 0; b < words.bytes; b++)
+            word |= (uint32_t)q[words.big_endian ? words.bytes - 1 - b : b] << (8 * b);
+        out[i] = convert_word(word, shift, mask, sign, bias);
+    }
+}
+
+ang_dicom_map ang_dicom_map_of(const ang_dicom_slice *slice) {
+    ang_dicom_map map = {slice->has_slope && slice->slope != 0 ? slice->slope : 1,
+                         slice->has_intercept ? slice->intercept : 0};
+    if (slice->is_signed) map.intercept -= 32768 * map.slope;
+    return map;
+}
+
+/* False where the two bytes are no value of `bits` bits. */
+static bool padding_value(uint16_t bytes, int bits, bool is_signed, int *value) {
+    /* The representation decides, not the VR: 63536 is -2000 where pixels are signed (rule 10). */
+    *value = is_signed ? (int16_t)bytes : bytes;
+    int low = is_signed ? -(1 << (bits - 1)) : 0, high = low + (1 << bits) - 1;
+    return *value >= low && *value <= high;
+}
+
+bool ang_dicom_padding(const ang_dicom_slice *slice, uint16_t *first, uint16_t *last) {
+    int value, limit;
+    if (!slice->has_padding || !padding_value(slice->padding, slice->bits_stored, slice->is_signed, &value))
+        return false;
+    limit = value;
+    if (slice->has_padding_limit && !padding_value(slice->padding_limit, slice->bits_stored, slice->is_signed, &limit))
+        limit = value;
+    int bias = slice->is_signed ? 32768 : 0;
+    *first = (uint16_t)((value < limit ? value : limit) + bias);
+    *last = (uint16_t)((value < limit ? limit : value) + bias);
+    return true;
+}
+
+uint16_t ang_dicom_remap(uint16_t value, ang_dicom_map from, ang_dicom_map to) {
+    double hu = from.slope * value + from.intercept, stored = nearbyint((hu - to.intercept) / to.slope);
+    return stored <= 0 ? 0 : stored >= 65535 ? 65535 : (uint16_t)stored;
+}
+
+ang_dicom_common ang_dicom_merge(const ang_dicom_map *maps, const uint16_t *first, const uint16_t *last, size_t count) {
+    ang_dicom_common common = {.same = true, .map = {1, 0}};
+    if (count == 0) return common;
+    common.map = maps[0];
+    for (size_t i = 0; i < count; i++) {
+        if (maps[i].slope != maps[0].slope || maps[i].intercept != maps[0].intercept || maps[i].slope <= 0)
+            common.same = false;
+    }
+    if (common.same) return common;
+
+    double low = INFINITY, high = -INFINITY, slope = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        if (first[i] > last[i]) continue;
+        double a = maps[i].slope * first[i] + maps[i].intercept, b = maps[i].slope * last[i] + maps[i].intercept;
+        low = fmin(low, fmin(a, b));
+        high = fmax(high, fmax(a, b));
+        slope = fmin(slope, fabs(maps[i].slope));
+    }
+    if (!(low <= high)) return common; /* nothing but padding */
+    /* -1000 HU, what padding becomes, must have a value too. */
+    low = fmin(low, -1000);
+    /* On the lattice of integers where all maps are on it: slopes of 1 with whole intercepts stay exact. */
+    if (slope == 1) low = floor(low);
+    if ((high - low) / slope > 65535) slope = (high - low) / 65535;
+    common.map = (ang_dicom_map){slope, low};
+    for (size_t i = 0; i < count; i++) {
+        for (uint32_t v = first[i]; v <= last[i]; v++) {
+            double hu = maps[i].slope * v + maps[i].intercept;
+            uint16_t there = ang_dicom_remap((uint16_t)v, maps[i], common.map);
+            common.error_hu = fmax(common.error_hu, fabs(slope * there + low - hu));
+        }
+    }
+    return common;
+}

@@ -1,0 +1,24 @@
+/* The readers behind ang_load. */
+#ifndef ANG_IO_FORMATS_H
+#define ANG_IO_FORMATS_H
+
+#include "io/load.h"
+
+/* The file's name without its folders: what messages call it. */
+const char *ang_base_name(const char *path);
+
+/* Whether the file begins like NIfTI-1, gzipped or not. */
+bool ang_nifti_probe(const char *path);
+/* As ang_load, for NIfTI-1 (.nii, .nii.gz, or .hdr beside .img). Affine from sform, else qform, else pixdim; RAS to
+ * LPS. */
+ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, ang_load_report *report,
+                           const ang_progress *progress, ang_error *err);
+
+/* Whether the options or a sidecar NAME.json describe the file as raw. */
+bool ang_raw_probe(const char *path, const ang_load_options *options);
+/* As ang_load, for voxels without a header, gzipped or not. The volume's x, y, z are the patient's left, posterior,
+ * superior; its centre is the origin. */
+ang_volume *ang_raw_load(const char *path, const ang_load_options *options, ang_load_report *report,
+                         const ang_progress *progress, ang_error *err);
+
+#endif

@@ -1,0 +1,193 @@
+#include "io/image/annotate.h"
+
+#include "core/base/memory.h"
+#include "io/image/encode.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Coverages of what is drawn, and where it goes. */
+typedef struct sheet {
+    int width, height;
+    float *mask;
+    const char *font; /* NULL: no text */
+    int size;         /* of letters, pixels */
+    int margin;       /* from the picture's edges, pixels */
+} sheet;
+
+static const char *find_font(void) {
+    static const char *const places[] = {
+        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu/DejaVuSans.ttf",          "/usr/share/fonts/TTF/DejaVuSans.ttf",
+        "/usr/local/share/fonts/DejaVuSans.ttf",
+    };
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        if (access(places[i], R_OK) == 0) return places[i];
+    }
+    return NULL;
+}
+
+static bool text_extent(const sheet *sheet, const char *text, int size, int *width, int *top, int *bottom) {
+    *width = *top = *bottom = 0;
+#ifdef ANG_WITH_OIIO
+    return sheet->font && *text && ang_oiio_text_size(text, size, sheet->font, width, top, bottom);
+#else
+    (void)sheet, (void)text, (void)size;
+    return false;
+#endif
+}
+
+static void draw_text(sheet *sheet, int x, int baseline, const char *text, int size, int align) {
+#ifdef ANG_WITH_OIIO
+    if (sheet->font && *text) {
+        ang_oiio_text(sheet->mask, sheet->width, sheet->height, x, baseline, text, size, sheet->font, align);
+    }
+#else
+    (void)sheet, (void)x, (void)baseline, (void)text, (void)size, (void)align;
+#endif
+}
+
+/* A filled rectangle [x0, x1) x [y0, y1) in pixels, edges at fractions covered in part along x. */
+static void draw_box(sheet *sheet, double x0, double x1, int y0, int y1) {
+    for (int y = y0 < 0 ? 0 : y0; y < y1 && y < sheet->height; y++) {
+        for (int x = x0 < 0 ? 0 : (int)x0; x < x1 && x < sheet->width; x++) {
+            double covered = fmin(x + 1, x1) - fmax(x, x0);
+            float *to = sheet->mask + (size_t)y * (size_t)sheet->width + (size_t)x;
+            if (covered > (double)*to) *to = (float)covered;
+        }
+    }
+}
+
+/* The bar with end ticks, its label above. */
+static void draw_bar(sheet *sheet, const ang_annotation *a, int small) {
+    int right = sheet->width - sheet->margin;
+    if (!(a->bar_mm > 0) || a->bar_pixels > right - sheet->margin) return;
+    int thick = sheet->size >= 22 ? sheet->size / 11 : 1, tick = sheet->size / 2;
+    int bottom = sheet->height - sheet->margin;
+    double left = right - a->bar_pixels;
+    draw_box(sheet, left, right, bottom - thick - (tick - thick) / 2, bottom - (tick - thick) / 2);
+    draw_box(sheet, left, left + thick, bottom - tick, bottom);
+    draw_box(sheet, right - thick, right, bottom - tick, bottom);
+
+    int width, top, descent;
+    /* A narrow picture has no room for "at the centre" beside the bottom letter: the words go below one another. */
+    char label[sizeof a->bar_label];
+    memcpy(label, a->bar_label, sizeof label);
+    if (!text_extent(sheet, label, small, &width, &top, &descent)) return;
+    int room = sheet->width / 2 - sheet->margin - 2 * sheet->size, line = bottom - tick - small / 2;
+    char *second = strstr(label, " at ");
+    if (width > room && second) {
+        draw_text(sheet, right, line, second + 1, small, 1);
+        *second = '\0';
+        line -= small + small / 4;
+    }
+    draw_text(sheet, right, line, label, small, 1);
+}
+
+static void draw_caption(sheet *sheet, const char *caption, int small) {
+    char text[sizeof((ang_annotation *)0)->caption + 4];
+    size_t length = strlen(caption);
+    memcpy(text, caption, length + 1);
+    int width, top, bottom, room = sheet->width / 2 - sheet->margin - 2 * sheet->size;
+    while (length > 0 && text_extent(sheet, text, small, &width, &top, &bottom) && width > room) {
+        /* Whole UTF-8 characters only. */
+        do length--;
+        while (length > 0 && ((unsigned char)caption[length] & 0xC0) == 0x80);
+        snprintf(text, sizeof text, "%.*s..", (int)length, caption);
+    }
+    if (length > 0) draw_text(sheet, sheet->margin, sheet->height - sheet->margin, text, small, -1);
+}
+
+static void draw_letters(sheet *sheet, const ang_annotation *a) {
+    int middle_x = sheet->width / 2, middle_y = sheet->height / 2;
+    int width, top, bottom;
+    if (!text_extent(sheet, "H", sheet->size, &width, &top, &bottom)) return;
+    draw_text(sheet, sheet->margin, middle_y - top / 2, a->left.text, sheet->size, -1);
+    draw_text(sheet, sheet->width - sheet->margin, middle_y - top / 2, a->right.text, sheet->size, 1);
+    draw_text(sheet, middle_x, sheet->margin - top, a->top.text, sheet->size, 0);
+    draw_text(sheet, middle_x, sheet->height - sheet->margin, a->bottom.text, sheet->size, 0);
+}
+
+/* The largest coverage within `radius` pixels of (x, y), falling off over the last pixel. */
+static float halo(const sheet *sheet, int x, int y, double radius) {
+    int reach = (int)ceil(radius);
+    double largest = 0;
+    for (int dy = -reach; dy <= reach; dy++) {
+        for (int dx = -reach; dx <= reach; dx++) {
+            int from_x = x + dx, from_y = y + dy;
+            if (from_x < 0 || from_y < 0 || from_x >= sheet->width || from_y >= sheet->height) continue;
+            double near = radius + 0.5 - sqrt((double)(dx * dx + dy * dy));
+            double here = sheet->mask[(size_t)from_y * (size_t)sheet->width + (size_t)from_x];
+            largest = fmax(largest, here * fmin(1, fmax(0, near)));
+        }
+    }
+    return (float)largest;
+}
+
+/* Only rows that the halo can touch, so that the large empty middle costs nothing. */
+static void ink(const sheet *sheet, ang_image *image, const unsigned char *rows, double radius) {
+    const float dark = 0.8F;
+    for (int y = 0; y < sheet->height; y++) {
+        if (!rows[y]) continue;
+        for (int x = 0; x < sheet->width; x++) {
+            size_t at = (size_t)y * (size_t)sheet->width + (size_t)x;
+            float shade = dark * halo(sheet, x, y, radius), white = sheet->mask[at];
+            if (!(shade > 0)) continue;
+            float *p = image->rgba + 4 * at;
+            for (int c = 0; c < 4; c++) {
+                float under = p[c] * (1 - shade) + (c == 3 ? shade : 0);
+                p[c] = under * (1 - white) + white;
+            }
+        }
+    }
+}
+
+static void blend(const sheet *sheet, ang_image *image, unsigned char *rows) {
+    double radius = sheet->size / 14.0;
+    if (radius < 1) radius = 1;
+    int reach = (int)ceil(radius);
+    for (int y = 0; y < sheet->height; y++) {
+        const float *row = sheet->mask + (size_t)y * (size_t)sheet->width;
+        bool used = false;
+        for (int x = 0; x < sheet->width && !used; x++) used = row[x] > 0;
+        for (int d = -reach; used && d <= reach; d++) {
+            if (y + d >= 0 && y + d < sheet->height) rows[y + d] = 1;
+        }
+    }
+    ink(sheet, image, rows, radius);
+}
+
+bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_notes *warnings, ang_error *err) {
+    sheet sheet = {.width = image->width, .height = image->height};
+    sheet.size = image->height / 40 > 11 ? image->height / 40 : 11;
+    sheet.margin = sheet.size / 2;
+    int small = sheet.size * 4 / 5 > 11 ? sheet.size * 4 / 5 : 11;
+    /* Below this the letters alone would fill the picture. */
+    if (image->width < 8 * sheet.size || image->height < 8 * sheet.size) return true;
+
+#ifdef ANG_WITH_OIIO
+    sheet.font = find_font();
+    if (!sheet.font && warnings) {
+        ang_notes_add(warnings, "no letters on the picture: the font DejaVuSans.ttf is missing; install "
+                                "fonts-dejavu-core");
+    }
+#else
+    (void)find_font;
+    if (warnings) ang_notes_add(warnings, "no letters on the picture: this build has no OpenImageIO");
+#endif
+    sheet.mask = ang_alloc((size_t)image->width * (size_t)image->height, sizeof *sheet.mask, "annotation", err);
+    unsigned char *rows = sheet.mask ? ang_alloc((size_t)image->height, 1, "annotation", err) : NULL;
+    if (rows) {
+        draw_letters(&sheet, annotation);
+        draw_bar(&sheet, annotation, small);
+        draw_caption(&sheet, annotation->caption, small);
+        blend(&sheet, image, rows);
+    }
+    bool good = rows != NULL;
+    free(sheet.mask);
+    free(rows);
+    return good;
+}

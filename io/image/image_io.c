@@ -1,0 +1,145 @@
+#include "io/image/image_io.h"
+
+#include "core/base/memory.h"
+#include "io/image/encode.h"
+#include "io/image/portable.h"
+#include "io/replace.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+typedef enum format { PNG, TIFF, EXR, PPM, PFM, UNKNOWN } format;
+
+static const struct {
+    const char *extension;
+    format format;
+} extensions[] = {{".png", PNG}, {".tif", TIFF}, {".tiff", TIFF}, {".exr", EXR}, {".ppm", PPM}, {".pfm", PFM}};
+
+#ifdef ANG_WITH_OIIO
+static const char *oiio_name(format format) { return format == PNG ? "png" : format == TIFF ? "tiff" : "openexr"; }
+#endif
+
+static format format_of(const char *path) {
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash ? slash : path, '.');
+    for (size_t i = 0; dot && i < sizeof extensions / sizeof *extensions; i++) {
+        if (strcasecmp(dot, extensions[i].extension) == 0) return extensions[i].format;
+    }
+    return UNKNOWN;
+}
+
+static bool refuse(const char *path, format format, ang_error *err) {
+    if (format == UNKNOWN) {
+        return ang_fail(err, ANG_USAGE, "%s: not a picture's extension; use .png, .tif, .exr, .ppm or .pfm", path);
+    }
+#ifndef ANG_WITH_OIIO
+    if (format < PPM) {
+        return ang_fail(err, ANG_USAGE,
+                        "%s: this build has no OpenImageIO (ANG_WITH_OIIO); use .ppm (8 bit) or .pfm (float)", path);
+    }
+#endif
+    return true;
+}
+
+bool ang_image_writable(const char *path, ang_error *err) { return refuse(path, format_of(path), err); }
+
+/* Premultiplied over the background, not clipped. */
+static bool flatten(const ang_image *image, const double background[4], int channels, float **out, ang_error *err) {
+    size_t count = (size_t)image->width * (size_t)image->height;
+    *out = ang_alloc(count * (size_t)channels, sizeof **out, "picture", err);
+    if (!*out) return false;
+    for (size_t i = 0; i < count; i++) {
+        const float *from = image->rgba + 4 * i;
+        float *to = *out + (size_t)channels * i;
+        double behind = (1 - (double)from[3]) * background[3];
+        for (int c = 0; c < 3; c++) to[c] = (float)(from[c] + behind * background[c]);
+        if (channels == 4) to[3] = (float)(from[3] + behind);
+    }
+    return true;
+}
+
+static unsigned char to_byte(double value) {
+    return value >= 1 ? 255 : value > 0 ? (unsigned char)lround(255 * value) : 0;
+}
+
+/* 8-bit unassociated RGBA, or RGB where all is opaque or `channels` says 3. */
+static bool quantise(const ang_image *image, const double background[4], unsigned char **out, int *channels,
+                     ang_error *err) {
+    size_t count = (size_t)image->width * (size_t)image->height;
+    float *rgba = ang_alloc(4 * count, sizeof *rgba, "picture", err);
+    unsigned char *bytes = ang_alloc(4 * count, 1, "picture", err);
+    *out = bytes;
+    if (!rgba || !bytes) {
+        free(rgba);
+        free(bytes);
+        return false;
+    }
+    ang_image_over(image, background, rgba);
+    bool opaque = true;
+    for (size_t i = 0; i < count && opaque; i++) opaque = to_byte(rgba[4 * i + 3]) == 255;
+    *channels = opaque ? 3 : 4;
+    for (size_t i = 0; i < count; i++) {
+        for (int c = 0; c < *channels; c++) bytes[(size_t)*channels * i + (size_t)c] = to_byte(rgba[4 * i + (size_t)c]);
+    }
+    free(rgba);
+    return true;
+}
+
+static bool encode_float(format format, const ang_image *image, const double background[4], ang_bytes *bytes,
+                         ang_error *err) {
+    float *pixels = NULL;
+    int channels = format == EXR ? 4 : 3;
+    if (!flatten(image, background, channels, &pixels, err)) return false;
+    bool good;
+    if (format == PFM) {
+        good = ang_pfm_encode(image->width, image->height, pixels, bytes, err);
+#ifdef ANG_WITH_OIIO
+    } else if (format == EXR) {
+        good = ang_oiio_encode(oiio_name(EXR), image->width, image->height, channels, true, pixels, bytes, err);
+#endif
+    } else { /* .ppm has no alpha: the premultiplied colour is what a black screen behind it shows */
+        good = ang_ppm_encode(image->width, image->height, pixels, bytes, err);
+    }
+    free(pixels);
+    return good;
+}
+
+static bool encode_bytes(format format, const ang_image *image, const double background[4], ang_bytes *bytes,
+                         ang_error *err) {
+#ifdef ANG_WITH_OIIO
+    unsigned char *pixels = NULL;
+    int channels = 0;
+    if (!quantise(image, background, &pixels, &channels, err)) return false;
+    bool good = ang_oiio_encode(oiio_name(format), image->width, image->height, channels, false, pixels, bytes, err);
+    free(pixels);
+    return good;
+#else
+    (void)quantise, (void)image, (void)background, (void)bytes;
+    return refuse("picture", format, err);
+#endif
+}
+
+bool ang_image_write(const char *path, const ang_image *image, const double background[4], ang_error *err) {
+    format format = format_of(path);
+    if (!refuse(path, format, err)) return false;
+    ang_bytes bytes = {0};
+    bool whole = format == PNG || format == TIFF ? encode_bytes(format, image, background, &bytes, err)
+                                                 : encode_float(format, image, background, &bytes, err);
+    if (whole) whole = ang_file_replace(path, bytes.data, bytes.size, err);
+    free(bytes.data);
+    return whole;
+}
+
+bool ang_picture_read(const char *path, ang_image *out, ang_error *err) {
+    *out = (ang_image){0};
+    format format = format_of(path);
+    if (!refuse(path, format, err)) return false;
+    if (format == PPM || format == PFM) return ang_portable_read(path, out, err);
+#ifdef ANG_WITH_OIIO
+    return ang_oiio_read(path, oiio_name(format), out, err);
+#else
+    return false;
+#endif
+}

@@ -1,0 +1,28 @@
+/* Pictures to files and back. The format follows the extension. */
+#ifndef ANG_IO_IMAGE_IMAGE_IO_H
+#define ANG_IO_IMAGE_IMAGE_IO_H
+
+#include "core/base/error.h"
+#include "core/scene/image.h"
+
+/* Writes `image` (premultiplied) over `background` (r, g, b, a in 0..1, not premultiplied). Values are display-referred
+ * and written as they are, without a colour transform. By extension, in any case:
+ *   .png        8 bit, unassociated alpha, round(255 x) of the clipped value; RGB only where every pixel is opaque
+ *   .tif .tiff  8 bit, the same
+ *   .exr        float, alpha associated (premultiplied), not clipped: what was computed, exactly
+ *   .ppm        8 bit RGB, premultiplied: what is not opaque shows black below
+ *   .pfm        float RGB, premultiplied, not clipped, little endian
+ * No metadata beside the program's name. The file appears whole or not at all. False with ANG_OUTPUT naming the file
+ * and the system's reason, with ANG_USAGE for an extension that is not known or a format that this build leaves out,
+ * with ANG_LIMIT where memory is out. Thread safe. */
+bool ang_image_write(const char *path, const ang_image *image, const double background[4], ang_error *err);
+
+/* ANG_USAGE where ang_image_write would refuse the extension of `path`: to be asked before long work. Thread safe. */
+bool ang_image_writable(const char *path, ang_error *err);
+
+/* Reads PNG, TIFF, EXR, PPM (P6, 8 bit) or PFM (PF) into a new premultiplied float RGBA picture; grey becomes three
+ * equal channels, no alpha becomes 1, unassociated alpha is multiplied in. Free `out` with ang_image_clear. False with
+ * ANG_INPUT (unreadable, another format), ANG_USAGE (left out of this build), ANG_LIMIT. Thread safe. */
+bool ang_picture_read(const char *path, ang_image *out, ang_error *err);
+
+#endif

@@ -1,0 +1,77 @@
+/* A path becomes a volume: DICOM files and folders, NIfTI-1, raw. */
+#ifndef ANG_IO_LOAD_H
+#define ANG_IO_LOAD_H
+
+#include "core/base/error.h"
+#include "core/base/notes.h"
+#include "core/base/progress.h"
+#include "core/volume/volume.h"
+
+#include <stdint.h>
+
+/* How to read. Zero-initialised means default. */
+typedef struct ang_load_options {
+    const char
+        *series; /* --series: a number as listed (1, 2, ...) or the end of a SeriesInstanceUID; NULL: largest CT */
+    const char *raw_dims;    /* --raw-dims "XxYxZ"; NULL: a JSON sidecar beside the file (NAME.json) must say it */
+    const char *raw_type;    /* --raw-type u8 | i8 | u16 | i16 | f32, little endian */
+    const char *raw_spacing; /* --raw-spacing "X,Y,Z" in mm; default 1,1,1 */
+    int threads;             /* 0: all */
+    bool strict;             /* any warning is an error (ANG_GEOMETRY) */
+} ang_load_options;
+
+/* One 3D image series or what else was found, as listed by `info`. */
+typedef struct ang_series_info {
+    int number; /* 1, 2, ... in the list */
+    char modality[17];
+    char *description; /* SeriesDescription: may identify a patient */
+    char *uid;         /* SeriesInstanceUID: identifies */
+    int width, height, slices;
+    double spacing_mm[3];
+    bool loadable;
+    char *remark; /* why it is not loadable, or what it is: "localizer", "derived summary (SEC...)" */
+} ang_series_info;
+
+/* Where the slices lie along the normal. */
+typedef struct ang_gap {
+    int after;   /* gap between this slice (0-based, in order of position) and the next */
+    double mm;   /* its length */
+    int missing; /* slices missing and interpolated there; 0: irregular */
+} ang_gap;
+
+/* All that is known of the input beside the voxels. Free with ang_load_report_clear. */
+typedef struct ang_load_report {
+    char format[16];         /* "DICOM", "NIfTI-1", "raw" */
+    ang_series_info *series; /* all series found; at least one for NIfTI and raw too */
+    size_t series_count;
+    int chosen;           /* index into `series` */
+    int slices_read;      /* slices that went into the volume */
+    int slices_duplicate; /* dropped: same position, same pixels */
+    int slices_missing;   /* interpolated */
+    ang_gap *gaps;        /* gaps that differ from the median */
+    size_t gap_count;
+    double slice_gap_median_mm, slice_gap_min_mm, slice_gap_max_mm;
+    bool resampled;          /* irregular spacing resampled along the normal */
+    double tilt_deg;         /* gantry tilt from the positions, 0 where none */
+    double tilt_nominal_deg; /* tag (0018,1120), NaN where absent */
+    bool signed_stored;      /* stored values were signed: 32768 was added */
+    int bits_stored;
+    bool padding_declared, padding_found; /* padding value from the tag; or from the corners */
+    double padding_hu;                    /* HU of the padding before it was replaced */
+    double rescale_error_hu;              /* largest rounding error where slices have different rescale; 0 otherwise */
+    double quantisation_hu;               /* step where float input was quantised; 0 otherwise */
+    uint64_t nan_count, inf_count;
+    uint32_t stored_crc32;              /* DESIGN.md, "Padding": stored values before padding was replaced */
+    double window_centre, window_width; /* first window of the file; NaN where none */
+    ang_notes assumptions, warnings;
+} ang_load_report;
+
+void ang_load_report_clear(ang_load_report *report);
+
+/* Reads `path` into a new volume (free with ang_volume_free) and fills `report`, also as far as it came where it fails.
+ * NULL with ANG_INPUT, ANG_GEOMETRY, ANG_LIMIT, ANG_INTERRUPTED. A file that cannot be read costs a warning that names
+ * it where others of its series can. `report->warnings` names files by their base name. */
+ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load_report *report,
+                     const ang_progress *progress, ang_error *err);
+
+#endif

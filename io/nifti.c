@@ -1,0 +1,189 @@
+#include "io/formats.h"
+#include "io/samples.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+#ifdef ANG_WITH_NIFTI
+
+#include <math.h>
+#include <nifti1_io.h>
+#include <unistd.h>
+
+static bool read_header(const char *path, nifti_1_header *header) {
+    gzFile file = gzopen(path, "rb");
+    if (!file) return false;
+    int got = gzread(file, header, sizeof *header);
+    gzclose(file);
+    return got == (int)sizeof *header && memcmp(&header->magic[2], "1", 2) == 0 && header->magic[0] == 'n' &&
+           (header->magic[1] == '+' || header->magic[1] == 'i');
+}
+
+bool ang_nifti_probe(const char *path) {
+    nifti_1_header header;
+    return read_header(path, &header);
+}
+
+static bool sample_type(int datatype, ang_sample *type) {
+    switch (datatype) {
+    case DT_UINT8:
+        *type = ANG_SAMPLE_U8;
+        return true;
+    case DT_INT8:
+        *type = ANG_SAMPLE_I8;
+        return true;
+    case DT_UINT16:
+        *type = ANG_SAMPLE_U16;
+        return true;
+    case DT_INT16:
+        *type = ANG_SAMPLE_I16;
+        return true;
+    case DT_UINT32:
+        *type = ANG_SAMPLE_U32;
+        return true;
+    case DT_INT32:
+        *type = ANG_SAMPLE_I32;
+        return true;
+    case DT_UINT64:
+        *type = ANG_SAMPLE_U64;
+        return true;
+    case DT_INT64:
+        *type = ANG_SAMPLE_I64;
+        return true;
+    case DT_FLOAT32:
+        *type = ANG_SAMPLE_F32;
+        return true;
+    case DT_FLOAT64:
+        *type = ANG_SAMPLE_F64;
+        return true;
+    default:
+        return false;
+    }
+}
+
+/* Millimetres per unit of length (NIfTI-1, xyzt_units); unknown is taken for mm. */
+static double unit_mm(const nifti_image *image) {
+    return image->xyz_units == NIFTI_UNITS_METER ? 1e3 : image->xyz_units == NIFTI_UNITS_MICRON ? 1e-3 : 1;
+}
+
+/* NIfTI's axes are right, anterior, superior; ours are left, posterior, superior. */
+static bool set_affine(const nifti_image *image, ang_volume *volume, ang_load_report *report, ang_error *err,
+                       const char *label) {
+    mat44 matrix = {{{0}}};
+    if (image->sform_code > 0) {
+        matrix = image->sto_xyz;
+        ang_notes_add(&report->assumptions, "orientation from the sform (code %d)", image->sform_code);
+    } else if (image->qform_code > 0) {
+        matrix = image->qto_xyz;
+        ang_notes_add(&report->assumptions, "orientation from the qform (code %d)", image->qform_code);
+    } else {
+        float size[3] = {image->dx, image->dy, image->dz};
+        for (int axis = 0; axis < 3; axis++) matrix.m[axis][axis] = fabsf(size[axis]) > 0 ? fabsf(size[axis]) : 1;
+        matrix.m[3][3] = 1;
+        ang_notes_add(&report->warnings, "neither sform nor qform: orientation is not known, x is taken as right, y as "
+                                         "anterior, z as superior");
+    }
+    double unit = unit_mm(image);
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 4; column++)
+            volume->affine.m[row][column] = (row < 2 ? -unit : unit) * (double)matrix.m[row][column];
+    }
+    ang_mat4 inverse;
+    if (!ang_mat4_inverse(&volume->affine, &inverse))
+        return ang_fail(err, ANG_GEOMETRY, "%s: its orientation matrix is singular", label);
+    return true;
+}
+
+/* The voxels' file: the header's own, or .img beside .hdr. To be freed; NULL where it is missing. */
+static char *voxel_file(const char *path, const nifti_1_header *header) {
+    if (header->magic[1] == '+') return strdup(path);
+    const char *end = strstr(ang_base_name(path), ".hdr");
+    if (!end) return NULL;
+    static const char *const endings[] = {".img", ".img.gz"};
+    for (int i = 0; i < 2; i++) {
+        char *name = NULL;
+        if (asprintf(&name, "%.*s%s", (int)(end - path), path, endings[i]) < 0) return NULL;
+        if (access(name, R_OK) == 0) return name;
+        free(name);
+    }
+    return NULL;
+}
+
+static ang_volume *load_image(const nifti_image *image, const char *voxels, const char *label,
+                              const ang_load_options *options, ang_load_report *report, const ang_progress *progress,
+                              ang_error *err) {
+    ang_sample_source source = {.path = voxels, .label = label, .slope = 1};
+    if (!sample_type(image->datatype, &source.type)) {
+        ang_fail(err, ANG_INPUT, "%s: data type %d (%s) is not read: it must be a whole or floating-point number",
+                 label, image->datatype, nifti_datatype_string(image->datatype));
+        return NULL;
+    }
+    source.offset = image->iname_offset > 0 ? (uint64_t)image->iname_offset : 0;
+    source.dims[0] = image->nx;
+    source.dims[1] = image->ny > 0 ? image->ny : 1;
+    source.dims[2] = image->nz > 0 ? image->nz : 1;
+    source.big_endian = (image->byteorder == nifti_short_order()) == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);
+    if (image->scl_slope != 0 && isfinite(image->scl_slope)) {
+        source.slope = (double)image->scl_slope;
+        source.intercept = isfinite(image->scl_inter) ? (double)image->scl_inter : 0;
+    }
+    long more = 1;
+    for (int d = 4; d <= image->ndim && d < 8; d++) more *= image->dim[d] > 0 ? image->dim[d] : 1;
+    if (more > 1) ang_notes_add(&report->assumptions, "the file holds %ld volumes: the first is shown", more);
+
+    ang_volume *volume = ang_samples_read(&source, options->threads, report, progress, err);
+    if (!volume) return NULL;
+    if (set_affine(image, volume, report, err, label) && ang_samples_list(volume, "?", image->descrip, report, err))
+        return volume;
+    ang_volume_free(volume);
+    return NULL;
+}
+
+ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, ang_load_report *report,
+                           const ang_progress *progress, ang_error *err) {
+    snprintf(report->format, sizeof report->format, "NIfTI-1");
+    const char *label = ang_base_name(path);
+    nifti_1_header header;
+    if (!read_header(path, &header)) {
+        ang_fail(err, ANG_INPUT, "%s: is no NIfTI-1 file", label);
+        return NULL;
+    }
+    char *voxels = voxel_file(path, &header);
+    if (!voxels) {
+        ang_fail(err, ANG_INPUT, "%s: its voxels should be in a .img file beside it", label);
+        return NULL;
+    }
+    nifti_set_debug_level(0); /* the library complains to stderr otherwise */
+    /* The name decides nothing here, the library wants an ending it knows. */
+    nifti_image *image = nifti_convert_nhdr2nim(header, header.magic[1] == '+' ? "volume.nii" : "volume.hdr");
+    ang_volume *volume = NULL;
+    if (!image || image->nx < 1)
+        ang_fail(err, ANG_INPUT, "%s: its NIfTI-1 header is damaged", label);
+    else
+        volume = load_image(image, voxels, label, options, report, progress, err);
+    if (image) nifti_image_free(image);
+    free(voxels);
+    return volume;
+}
+
+#else
+
+bool ang_nifti_probe(const char *path) {
+    char header[348];
+    gzFile file = gzopen(path, "rb");
+    int got = file ? gzread(file, header, sizeof header) : -1;
+    if (file) gzclose(file);
+    return got == (int)sizeof header && (memcmp(header + 344, "n+1", 4) == 0 || memcmp(header + 344, "ni1", 4) == 0);
+}
+
+ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, ang_load_report *report,
+                           const ang_progress *progress, ang_error *err) {
+    (void)options, (void)progress;
+    snprintf(report->format, sizeof report->format, "NIfTI-1");
+    ang_fail(err, ANG_INPUT, "%s: NIfTI-1, which this build does not read", ang_base_name(path));
+    return NULL;
+}
+
+#endif

@@ -1,0 +1,89 @@
+#include "io/replace.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool fail(const char *path, int reason, ang_error *err) {
+    char text[128];
+    return ang_fail(err, ANG_OUTPUT, "%s: cannot be written (%s); choose another place or free some space", path,
+                    strerror_r(reason, text, sizeof text));
+}
+
+/* O_EXCL instead of mkstemp: the file gets the permissions that the user's umask gives, not 0600. */
+static int open_temporary(const char *path, char *temporary, size_t size) {
+    const char *slash = strrchr(path, '/');
+    int folder = slash ? (int)(slash - path) + 1 : 0;
+    for (unsigned attempt = 0; attempt < 10000; attempt++) {
+        int length = snprintf(temporary, size, "%.*s.ang-%ld-%u.part", folder, path, (long)getpid(), attempt);
+        if (length < 0 || (size_t)length >= size) {
+            errno = ENAMETOOLONG;
+            return -1;
+        }
+        int file = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file >= 0 || errno != EEXIST) return file;
+    }
+    errno = EEXIST;
+    return -1;
+}
+
+static bool write_all(int file, const unsigned char *data, size_t size) {
+    while (size > 0) {
+        ssize_t written = write(file, data, size);
+        if (written < 0) {
+            if (errno == EINTR) continue;
+            return false;
+        }
+        data += written;
+        size -= (size_t)written;
+    }
+    /* Some file systems cannot flush: that is no failure to write. */
+    return fsync(file) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
+}
+
+bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err) {
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
+        return ang_fail(err, ANG_OUTPUT, "%s: exists and is %s; give the name of a file", path,
+                        S_ISDIR(status.st_mode) ? "a folder" : "not a regular file");
+    }
+    char temporary[PATH_MAX];
+    int file = open_temporary(path, temporary, sizeof temporary);
+    if (file < 0) return fail(path, errno, err);
+
+    bool good = write_all(file, data, size);
+    int reason = errno;
+    if (close(file) != 0 && good) {
+        good = false;
+        reason = errno;
+    }
+    if (good && rename(temporary, path) != 0) {
+        good = false;
+        reason = errno;
+    }
+    if (!good) {
+        unlink(temporary);
+        return fail(path, reason, err);
+    }
+    return true;
+}
+
+bool ang_folder_make(const char *path, ang_error *err) {
+    char part[PATH_MAX];
+    size_t length = strlen(path);
+    if (length == 0 || length >= sizeof part) return fail(path, length ? ENAMETOOLONG : ENOENT, err);
+    for (size_t i = 1; i <= length; i++) {
+        if (path[i] != '/' && path[i] != '\0') continue;
+        memcpy(part, path, i);
+        part[i] = '\0';
+        if (mkdir(part, 0777) != 0 && errno != EEXIST) return fail(path, errno, err);
+    }
+    struct stat status;
+    if (stat(path, &status) != 0) return fail(path, errno, err);
+    if (!S_ISDIR(status.st_mode)) return ang_fail(err, ANG_OUTPUT, "%s: is not a folder; choose another name", path);
+    return true;
+}

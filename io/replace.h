@@ -1,0 +1,18 @@
+/* Files appear whole or not at all. */
+#ifndef ANG_IO_REPLACE_H
+#define ANG_IO_REPLACE_H
+
+#include "core/base/error.h"
+
+#include <stddef.h>
+
+/* Writes `size` bytes to `path`: into a temporary file of the same folder, flushed to the disk (fsync), then renamed
+ * over `path` (POSIX rename: readers see the old file or the new one). False with ANG_OUTPUT, naming `path` and the
+ * system's reason; the temporary file is removed and an existing `path` left as it was. A `path` that exists and is no
+ * regular file (a folder, a device) is refused. Thread safe. */
+bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err);
+
+/* Makes the folder `path` and its parents where they do not exist. False with ANG_OUTPUT. Thread safe. */
+bool ang_folder_make(const char *path, ang_error *err);
+
+#endif

@@ -1,0 +1,224 @@
+#include "io/report.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void ang_load_report_name(const ang_load_report *report, char name[32]) {
+    int number = report->series_count ? report->series[report->chosen].number : 0;
+    snprintf(name, 32, "%08x-%d", (unsigned)report->stored_crc32, number);
+}
+
+void ang_load_report_masked(const char *text, bool keep_phi, char *out, size_t size) {
+    static const char prefix[] = "file \"";
+    const char *end = strncmp(text, prefix, sizeof prefix - 1) == 0 ? strstr(text, "\": ") : NULL;
+    if (keep_phi || !end)
+        snprintf(out, size, "%s", text);
+    else
+        snprintf(out, size, "a file: %s", end + 3);
+}
+
+static const char *or_dash(const char *text) { return text && text[0] ? text : "-"; }
+
+static void print_notes(FILE *out, const char *title, const ang_notes *notes, bool keep_phi) {
+    if (notes->count == 0) return;
+    fprintf(out, "%s\n", title);
+    for (size_t i = 0; i < notes->count; i++) {
+        char text[1024];
+        ang_load_report_masked(notes->text[i], keep_phi, text, sizeof text);
+        fprintf(out, "  - %s\n", text);
+    }
+}
+
+static void print_series(FILE *out, const ang_volume *volume, const ang_load_report *report, bool keep_phi) {
+    fprintf(out, "Series (* is the one shown)\n");
+    fprintf(out, "    no. kind   columns x rows x slices   spacing mm            remark\n");
+    for (size_t i = 0; i < report->series_count; i++) {
+        const ang_series_info *info = &report->series[i];
+        char size[48], spacing[64];
+        snprintf(size, sizeof size, "%d x %d x %d", info->width, info->height, info->slices);
+        snprintf(spacing, sizeof spacing, "%.3f x %.3f x %.3f", info->spacing_mm[0], info->spacing_mm[1],
+                 info->spacing_mm[2]);
+        bool chosen = volume && (int)i == report->chosen;
+        fprintf(out, "  %c %3d %-6s %-25s %-21s %s%s%s%s\n", chosen ? '*' : ' ', info->number, info->modality, size,
+                spacing, info->loadable ? "" : "not a volume: ", or_dash(info->remark),
+                keep_phi && info->description[0] ? "; " : "", keep_phi ? info->description : "");
+    }
+}
+
+/* The letter of the patient's side that a direction points to most (PS3.3 C.7.6.1.1.1). */
+static char side(ang_vec3 d) {
+    double x = fabs(d.x), y = fabs(d.y), z = fabs(d.z);
+    if (x >= y && x >= z) return d.x > 0 ? 'L' : 'R';
+    if (y >= z) return d.y > 0 ? 'P' : 'A';
+    return d.z > 0 ? 'H' : 'F';
+}
+
+static void print_geometry(FILE *out, const ang_volume *volume, const ang_load_report *report) {
+    fprintf(out, "Geometry\n");
+    fprintf(out, "  size         %d x %d x %d voxels\n", volume->dims[0], volume->dims[1], volume->dims[2]);
+    fprintf(out, "  voxel        %.4f x %.4f x %.4f mm\n", ang_volume_spacing(volume, 0), ang_volume_spacing(volume, 1),
+            ang_volume_spacing(volume, 2));
+    ang_vec3 axis[3];
+    for (int i = 0; i < 3; i++) axis[i] = ang_mat4_column(&volume->affine, i);
+    fprintf(out, "  axes         columns run to %c, rows to %c, slices to %c\n", side(axis[0]), side(axis[1]),
+            side(axis[2]));
+    fprintf(out, "  first voxel  %.2f, %.2f, %.2f mm (left, posterior, head)\n", volume->affine.m[0][3],
+            volume->affine.m[1][3], volume->affine.m[2][3]);
+    fprintf(out, "  gantry tilt  %.2f degrees%s", report->tilt_deg, report->tilt_deg > 0 ? ", kept as a shear" : "");
+    if (isfinite(report->tilt_nominal_deg)) fprintf(out, " (the scanner says %.2f)", report->tilt_nominal_deg);
+    fprintf(out, "\n  slices       %d read", report->slices_read);
+    if (report->slices_duplicate) fprintf(out, ", %d duplicates dropped", report->slices_duplicate);
+    if (report->slices_missing) fprintf(out, ", %d missing and interpolated", report->slices_missing);
+    fprintf(out, "\n");
+    if (report->slice_gap_median_mm > 0)
+        fprintf(out, "  distances    %.3f to %.3f mm, median %.3f mm%s\n", report->slice_gap_min_mm,
+                report->slice_gap_max_mm, report->slice_gap_median_mm, report->resampled ? ": resampled" : "");
+    for (size_t i = 0; i < report->gap_count; i++) {
+        const ang_gap *gap = &report->gaps[i];
+        fprintf(out, "    after slice %d: %.3f mm", gap->after + 1, gap->mm);
+        if (gap->missing)
+            fprintf(out, ", %d missing\n", gap->missing);
+        else
+            fprintf(out, ", irregular\n");
+    }
+}
+
+static void print_values(FILE *out, const ang_volume *volume, const ang_load_report *report) {
+    fprintf(out, "Values\n");
+    fprintf(out, "  range        %g to %g HU\n", ang_volume_hu(volume, volume->minimum),
+            ang_volume_hu(volume, volume->maximum));
+    fprintf(out, "  HU           %.10g x stored %+.10g; %d bits, %s\n", volume->slope, volume->intercept,
+            report->bits_stored, report->signed_stored ? "signed (32768 added)" : "unsigned");
+    if (volume->padding_count > 0)
+        fprintf(out, "  padding      %g HU (%s), %.1f %% of the voxels, shown as -1000 HU\n", report->padding_hu,
+                report->padding_declared ? "declared" : "found in the corners",
+                100.0 * (double)volume->padding_count / (double)ang_volume_count(volume));
+    if (report->rescale_error_hu > 0) fprintf(out, "  rescale      off by up to %.3g HU\n", report->rescale_error_hu);
+    if (report->quantisation_hu > 0) fprintf(out, "  quantised    in steps of %.4g HU\n", report->quantisation_hu);
+    if (report->nan_count || report->inf_count)
+        fprintf(out, "  not numbers  %llu NaN, %llu infinite\n", (unsigned long long)report->nan_count,
+                (unsigned long long)report->inf_count);
+    if (isfinite(report->window_centre) && isfinite(report->window_width))
+        fprintf(out, "  window       centre %g, width %g HU\n", report->window_centre, report->window_width);
+    fprintf(out, "  checksum     %08x (CRC-32 of the stored values)\n", (unsigned)report->stored_crc32);
+}
+
+void ang_load_report_print(FILE *out, const ang_volume *volume, const ang_load_report *report, bool keep_phi) {
+    char name[32];
+    ang_load_report_name(report, name);
+    fprintf(out, "Input          %s, %s\n", report->format[0] ? report->format : "?", name);
+    if (report->series_count) print_series(out, volume, report, keep_phi);
+    if (volume) {
+        print_geometry(out, volume, report);
+        print_values(out, volume, report);
+    }
+    print_notes(out, "Assumed", &report->assumptions, keep_phi);
+    print_notes(out, "Warnings", &report->warnings, keep_phi);
+}
+
+static void add_number(cJSON *object, const char *name, double value) {
+    if (isfinite(value))
+        cJSON_AddNumberToObject(object, name, value);
+    else
+        cJSON_AddNullToObject(object, name);
+}
+
+static void add_numbers(cJSON *object, const char *name, const double *values, int count) {
+    cJSON_AddItemToObject(object, name, cJSON_CreateDoubleArray(values, count));
+}
+
+static void add_notes(cJSON *object, const char *name, const ang_notes *notes, bool keep_phi) {
+    cJSON *array = cJSON_AddArrayToObject(object, name);
+    for (size_t i = 0; i < notes->count; i++) {
+        char text[1024];
+        ang_load_report_masked(notes->text[i], keep_phi, text, sizeof text);
+        cJSON_AddItemToArray(array, cJSON_CreateString(text));
+    }
+}
+
+static void add_series(cJSON *input, const ang_volume *volume, const ang_load_report *report, bool keep_phi) {
+    cJSON *array = cJSON_AddArrayToObject(input, "series");
+    for (size_t i = 0; i < report->series_count; i++) {
+        const ang_series_info *info = &report->series[i];
+        cJSON *item = cJSON_CreateObject();
+        cJSON_AddNumberToObject(item, "number", info->number);
+        cJSON_AddStringToObject(item, "modality", info->modality);
+        cJSON_AddNumberToObject(item, "columns", info->width);
+        cJSON_AddNumberToObject(item, "rows", info->height);
+        cJSON_AddNumberToObject(item, "slices", info->slices);
+        add_numbers(item, "spacing_mm", info->spacing_mm, 3);
+        cJSON_AddBoolToObject(item, "loadable", info->loadable);
+        cJSON_AddBoolToObject(item, "chosen", volume && (int)i == report->chosen);
+        cJSON_AddStringToObject(item, "remark", info->remark ? info->remark : "");
+        if (keep_phi) {
+            cJSON_AddStringToObject(item, "description", info->description ? info->description : "");
+            cJSON_AddStringToObject(item, "uid", info->uid ? info->uid : "");
+        }
+        cJSON_AddItemToArray(array, item);
+    }
+}
+
+static void add_geometry(cJSON *input, const ang_volume *volume, const ang_load_report *report) {
+    double spacing[3];
+    for (int axis = 0; axis < 3; axis++) spacing[axis] = ang_volume_spacing(volume, axis);
+    cJSON_AddItemToObject(input, "dims", cJSON_CreateIntArray(volume->dims, 3));
+    add_numbers(input, "spacing_mm", spacing, 3);
+    add_number(input, "tilt_deg", report->tilt_deg);
+    add_number(input, "tilt_nominal_deg", report->tilt_nominal_deg);
+    cJSON *rows = cJSON_AddArrayToObject(input, "affine");
+    for (int r = 0; r < 4; r++) cJSON_AddItemToArray(rows, cJSON_CreateDoubleArray(volume->affine.m[r], 4));
+    double range[2] = {ang_volume_hu(volume, volume->minimum), ang_volume_hu(volume, volume->maximum)};
+    add_numbers(input, "hu_range", range, 2);
+    cJSON_AddNumberToObject(input, "slope", volume->slope);
+    cJSON_AddNumberToObject(input, "intercept", volume->intercept);
+    cJSON_AddNumberToObject(input, "stored_crc32", report->stored_crc32);
+    cJSON *padding = cJSON_AddObjectToObject(input, "padding");
+    bool any = volume->padding_count > 0;
+    cJSON_AddBoolToObject(padding, "declared", report->padding_declared);
+    cJSON_AddBoolToObject(padding, "found", report->padding_found);
+    add_number(padding, "hu", any ? report->padding_hu : NAN);
+    cJSON_AddNumberToObject(padding, "voxels", (double)volume->padding_count);
+}
+
+static void add_slices(cJSON *input, const ang_load_report *report) {
+    cJSON_AddNumberToObject(input, "slices_read", report->slices_read);
+    cJSON_AddNumberToObject(input, "slices_missing", report->slices_missing);
+    cJSON_AddNumberToObject(input, "duplicates", report->slices_duplicate);
+    cJSON_AddBoolToObject(input, "resampled", report->resampled);
+    cJSON *distance = cJSON_AddObjectToObject(input, "slice_gap_mm");
+    add_number(distance, "median", report->slice_gap_median_mm);
+    add_number(distance, "min", report->slice_gap_min_mm);
+    add_number(distance, "max", report->slice_gap_max_mm);
+    cJSON *gaps = cJSON_AddArrayToObject(input, "gaps");
+    for (size_t i = 0; i < report->gap_count; i++) {
+        cJSON *gap = cJSON_CreateObject();
+        cJSON_AddNumberToObject(gap, "after", report->gaps[i].after);
+        add_number(gap, "mm", report->gaps[i].mm);
+        cJSON_AddNumberToObject(gap, "missing", report->gaps[i].missing);
+        cJSON_AddItemToArray(gaps, gap);
+    }
+}
+
+cJSON *ang_load_report_json(const ang_volume *volume, const ang_load_report *report, bool keep_phi) {
+    cJSON *input = cJSON_CreateObject();
+    if (!input) return NULL;
+    char name[32];
+    ang_load_report_name(report, name);
+    cJSON_AddStringToObject(input, "name", name);
+    cJSON_AddStringToObject(input, "format", report->format);
+    if (volume) add_geometry(input, volume, report);
+    add_series(input, volume, report, keep_phi);
+    add_slices(input, report);
+    cJSON_AddNumberToObject(input, "bits_stored", report->bits_stored);
+    cJSON_AddBoolToObject(input, "signed", report->signed_stored);
+    cJSON_AddNumberToObject(input, "rescale_error_hu", report->rescale_error_hu);
+    cJSON_AddNumberToObject(input, "quantisation_hu", report->quantisation_hu);
+    cJSON_AddNumberToObject(input, "nan_count", (double)report->nan_count);
+    cJSON_AddNumberToObject(input, "inf_count", (double)report->inf_count);
+    add_number(input, "window_centre", report->window_centre);
+    add_number(input, "window_width", report->window_width);
+    add_notes(input, "assumptions", &report->assumptions, keep_phi);
+    add_notes(input, "warnings", &report->warnings, keep_phi);
+    return input;
+}

@@ -1,0 +1,28 @@
+// Emission and absorption, front to back.
+uniform float termination; // accumulated opacity at which a ray stops
+
+vec4 march(Ray ray, out float samples) {
+    float reach = ray.leave - ray.enter;
+    int count = lattice_count(reach);
+    vec3 start = (ray.origin + ray.enter * ray.direction) * field_scale + field_offset;
+    vec3 along = ray.direction * field_scale;
+    vec3 colour = vec3(0.0);
+    float opacity = 0.0;
+    int i = 0;
+    while (i < count && opacity < termination) {
+        vec4 medium;
+        vec3 coordinate;
+        float piece;
+        do {
+            piece = lattice_length(i, count, reach);
+            coordinate = start + lattice_place(i, piece) * along;
+            i++;
+            medium = transfer_at(field_at(coordinate));
+        } while (medium.a <= 0.0 && i < count);
+        float added = (1.0 - opacity) * opacity_of(medium.a * piece);
+        colour += added * shade(medium.rgb, coordinate, ray.direction_mm);
+        opacity += added;
+    }
+    samples = float(i);
+    return vec4(colour, opacity);
+}

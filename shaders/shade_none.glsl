@@ -1,0 +1,3 @@
+vec3 shade(vec3 colour, vec3 coordinate, vec3 direction_mm) {
+    return colour;
+}

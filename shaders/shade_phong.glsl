@@ -1,0 +1,17 @@
+// ang_phong of core/scene/scene.h: headlight, two-sided, weighted by the gradient's length.
+uniform float phong_ambient;
+uniform float phong_diffuse;
+uniform float phong_specular;
+uniform float phong_power;
+uniform float phong_g0; // HU/mm
+
+vec3 shade(vec3 colour, vec3 coordinate, vec3 direction_mm) {
+    vec3 gradient = gradient_at(coordinate);
+    float squared = dot(gradient, gradient);
+    if (!(squared > 0.0)) return colour;
+    float facing = min(abs(dot(gradient, direction_mm)) * inversesqrt(squared), 1.0);
+    // pow(0, y) is log of nothing on some drivers.
+    float highlight = facing > 0.0 ? pow(facing, phong_power) : (phong_power > 0.0 ? 0.0 : 1.0);
+    vec3 shaded = colour * (phong_ambient + phong_diffuse * facing) + phong_specular * highlight;
+    return mix(colour, shaded, squared / (squared + phong_g0 * phong_g0));
+}

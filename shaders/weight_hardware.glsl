@@ -1,0 +1,6 @@
+// The share of the interpolated value that is not padding.
+uniform sampler3D weight_values;
+
+float weight_at(vec3 coordinate) {
+    return textureLod(weight_values, coordinate, 0.0).r;
+}

@@ -1,0 +1,3 @@
+float weight_at(vec3 coordinate) {
+    return 1.0;
+}

@@ -1,0 +1,229 @@
+/* The program as scripts use it: exit codes, what goes to stdout, JSON, privacy, atomic output. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* after them */
+#include <cjson/cJSON.h>
+#include <cmocka.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define TMP     ANG_TEST_TMP "/command-line"
+#define PHANTOM TMP "/phantom"
+
+static char output[1 << 20];
+
+/* Runs the program with arguments for the shell; stdout goes to `output`. Returns the exit code. */
+static int run(const char *arguments) {
+    char command[4096];
+    snprintf(command, sizeof command, "%s %s", ANG_PROGRAM, arguments);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    size_t length = fread(output, 1, sizeof output - 1, pipe);
+    output[length] = '\0';
+    int status = pclose(pipe);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static void expect(int code, const char *arguments) {
+    int actual = run(arguments);
+    if (actual != code) fail_msg("angioscope %s: exit code %d, not %d; it said: %s", arguments, actual, code, output);
+}
+
+static bool exists(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0;
+}
+
+static int make_phantom(void **state) {
+    (void)state;
+    mkdir(TMP, 0777);
+    (void)!system("rm -rf " PHANTOM);
+    return run("phantom -o " PHANTOM " --dims 64x60x24 --quiet");
+}
+
+static void usage_errors_give_two(void **state) {
+    (void)state;
+    expect(2, "2>&1");
+    expect(2, "fly 2>&1");
+    expect(2, "render 2>&1");
+    expect(2, "render " PHANTOM " 2>&1");
+    expect(2, "render " PHANTOM " -o " TMP "/x.png --step 0 2>&1");
+    expect(2, "render " PHANTOM " -o " TMP "/x.png --mode sideways 2>&1");
+    assert_non_null(strstr(output, "--mode sideways"));
+    expect(2, "render " PHANTOM " -o " TMP "/x.png --preset cta-haed 2>&1");
+    assert_non_null(strstr(output, "cta-head"));
+    expect(2, "render " PHANTOM " -o " TMP "/x.png --no-such-option 2>&1");
+    expect(2, "render " PHANTOM " -o " TMP "/x.png --clip 1,1,2,2,3,3 2>&1");
+    expect(2, "render " PHANTOM " -o " TMP "/x.jpeg2 2>&1");
+    assert_false(exists(TMP "/x.png"));
+}
+
+static void help_goes_to_stdout(void **state) {
+    (void)state;
+    expect(0, "--help 2>/dev/null");
+    assert_non_null(strstr(output, "render"));
+    expect(0, "render --help 2>/dev/null");
+    assert_non_null(strstr(output, "--termination"));
+    assert_non_null(strstr(output, "default 0.5"));
+    expect(0, "--version 2>/dev/null");
+}
+
+static void missing_and_foreign_input_give_three(void **state) {
+    (void)state;
+    expect(3, "info " TMP "/nothing-here 2>&1");
+    assert_non_null(strstr(output, "nothing-here"));
+    FILE *file = fopen(TMP "/words.txt", "w");
+    assert_non_null(file);
+    fputs("no image\n", file);
+    fclose(file);
+    expect(3, "info " TMP "/words.txt 2>&1");
+    expect(3, "render " TMP "/words.txt -o " TMP "/x.png 2>&1");
+}
+
+static void outputs_that_cannot_be_written_give_seven(void **state) {
+    (void)state;
+    expect(7, "render " PHANTOM " -o " TMP "/no/such/folder/x.png --size 16x16 --quiet 2>&1");
+    assert_non_null(strstr(output, "no/such/folder"));
+}
+
+static void no_gl_gives_five(void **state) {
+    (void)state;
+    expect(5, "render " PHANTOM " -o " TMP "/x.png --size 16x16 --method singlepass --backend none --quiet 2>&1");
+}
+
+static cJSON *parsed(void) {
+    cJSON *json = cJSON_Parse(output);
+    if (!json) fail_msg("not JSON: %s", output);
+    return json;
+}
+
+static double at(const cJSON *json, const char *name, int index) {
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(json, name);
+    if (index >= 0) item = cJSON_GetArrayItem(item, index);
+    if (!cJSON_IsNumber(item)) fail_msg("no number %s", name);
+    return item->valuedouble;
+}
+
+static void info_and_render_describe_the_input(void **state) {
+    (void)state;
+    expect(0, "info " PHANTOM " --json 2>/dev/null");
+    cJSON *json = parsed();
+    const cJSON *input = cJSON_GetObjectItemCaseSensitive(json, "input");
+    assert_int_equal((int)at(input, "dims", 0), 64);
+    assert_int_equal((int)at(input, "dims", 1), 60);
+    assert_int_equal((int)at(input, "dims", 2), 24);
+    assert_true(fabs(at(input, "spacing_mm", 2) - 96. / 24) < 1e-6);
+    assert_true(at(input, "tilt_deg", -1) == 0);
+    double crc = at(input, "stored_crc32", -1);
+    cJSON_Delete(json);
+
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 40x30 --preset cta-head --repeat 3 --json - 2>/dev/null");
+    json = parsed();
+    input = cJSON_GetObjectItemCaseSensitive(json, "input");
+    assert_true(at(input, "stored_crc32", -1) == crc);
+    const cJSON *time = cJSON_GetObjectItemCaseSensitive(json, "time_ms");
+    assert_true(at(time, "frame_min", -1) <= at(time, "frame_median", -1));
+    assert_true(at(time, "frame_median", -1) <= at(time, "frame_max", -1));
+    const cJSON *counts = cJSON_GetObjectItemCaseSensitive(json, "counts");
+    assert_true(at(counts, "samples", -1) > 0);
+    assert_non_null(cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(json, "plan"), "left_out"));
+    cJSON_Delete(json);
+}
+
+static void nothing_of_the_patient_is_in_the_json(void **state) {
+    (void)state;
+    expect(0, "info " PHANTOM " --json 2>/dev/null");
+    assert_null(strstr(output, "Phantom^"));
+    assert_null(strstr(output, "2.25."));
+    assert_null(strstr(output, "command-line"));
+    expect(0, "info " PHANTOM " 2>/dev/null");
+    assert_null(strstr(output, "2.25."));
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --json - 2>/dev/null");
+    assert_null(strstr(output, "2.25."));
+    assert_null(strstr(output, "command-line"));
+}
+
+static void pictures_of_the_same_scene_are_equal(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 64x48 --preset ct-bone --quiet");
+    expect(0, "render " PHANTOM " -o " TMP "/b.png --size 64x48 --preset ct-bone --quiet");
+    expect(0, "check " TMP "/a.png " TMP "/b.png");
+    expect(0, "render " PHANTOM " -o " TMP "/c.png --size 64x48 --preset ct-bone --view left --quiet");
+    expect(1, "check " TMP "/a.png " TMP "/c.png --heat " TMP "/heat.png 2>/dev/null");
+    assert_true(exists(TMP "/heat.png"));
+    expect(0, "check " TMP "/a.png " TMP "/c.png --threshold 255 --json");
+    cJSON *json = parsed();
+    assert_true(at(json, "max", -1) > 10);
+    cJSON_Delete(json);
+    /* The truth in double precision and the GL picture, both as 8-bit files. */
+    expect(0, "render " PHANTOM " -o " TMP "/r.png --size 64x48 --preset ct-bone --method reference --quiet");
+    expect(0, "render " PHANTOM " -o " TMP "/f.png --size 64x48 --preset ct-bone --step 0.03 --no-termination --quiet");
+    expect(0, "check " TMP "/r.png " TMP "/f.png --threshold 2");
+}
+
+static void frames_are_numbered(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP "/turn.png --size 16x16 --frames 3 --orbit 360 --quiet");
+    assert_true(exists(TMP "/turn-0001.png") && exists(TMP "/turn-0002.png") && exists(TMP "/turn-0003.png"));
+    assert_false(exists(TMP "/turn-0004.png"));
+}
+
+static void presets_are_listed_and_shown(void **state) {
+    (void)state;
+    expect(0, "presets list");
+    static const char *const wanted[] = {"cta-head",
+                                         "cta-neck",
+                                         "cta-thorax",
+                                         "cta-coronaries",
+                                         "cta-abdominal-aorta",
+                                         "cta-runoff",
+                                         "cta-pulmonary-arteries",
+                                         "ct-bone",
+                                         "ct-skull",
+                                         "ct-soft-tissue",
+                                         "ct-lung",
+                                         "ct-airways",
+                                         "ct-skin",
+                                         "ct-metal-stent",
+                                         "ct-mip",
+                                         "ct-xray",
+                                         "mra"};
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
+        if (!strstr(output, wanted[i])) fail_msg("no preset %s", wanted[i]);
+    expect(0, "presets show cta-head");
+    cJSON_Delete(parsed());
+}
+
+static void progress_and_messages_go_to_stderr(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 2>/dev/null");
+    assert_string_equal(output, "");
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --quiet 2>&1");
+    assert_string_equal(output, "");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(usage_errors_give_two),
+        cmocka_unit_test(help_goes_to_stdout),
+        cmocka_unit_test(missing_and_foreign_input_give_three),
+        cmocka_unit_test(outputs_that_cannot_be_written_give_seven),
+        cmocka_unit_test(no_gl_gives_five),
+        cmocka_unit_test(info_and_render_describe_the_input),
+        cmocka_unit_test(nothing_of_the_patient_is_in_the_json),
+        cmocka_unit_test(pictures_of_the_same_scene_are_equal),
+        cmocka_unit_test(frames_are_numbered),
+        cmocka_unit_test(presets_are_listed_and_shown),
+        cmocka_unit_test(progress_and_messages_go_to_stderr),
+    };
+    return cmocka_run_group_tests(tests, make_phantom, NULL);
+}

@@ -1,0 +1,180 @@
+/* Cameras, clip boxes and rays as DESIGN.md sets them. */
+#include "tests/core/fixtures.h"
+
+#include "core/render/method.h"
+#include "core/scene/image.h"
+
+static double flat_value(int x, int y, int z) {
+    (void)x, (void)y, (void)z;
+    return 0;
+}
+
+static ang_volume *body(void) {
+    double spacing[3] = {1, 1, 2};
+    ang_volume *volume = make_volume(101, 81, 61, spacing, flat_value);
+    volume->affine.m[0][3] = 1e5;
+    volume->affine.m[2][3] = -300;
+    return volume;
+}
+
+static void check_direction(ang_vec3 actual, double x, double y, double z) {
+    assert_close(actual.x, x, 1e-15);
+    assert_close(actual.y, y, 1e-15);
+    assert_close(actual.z, z, 1e-15);
+}
+
+static void named_views_stand_where_they_say(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    /* LPS: left +x, posterior +y, superior +z; the direction to look, to the right of the picture, up. */
+    static const struct {
+        const char *name;
+        double forward[3], right[3], up[3];
+    } views[] = {
+        {"anterior", {0, 1, 0}, {1, 0, 0}, {0, 0, 1}},    {"posterior", {0, -1, 0}, {-1, 0, 0}, {0, 0, 1}},
+        {"left", {-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},       {"right", {1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+        {"superior", {0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}, {"inferior", {0, 0, 1}, {1, 0, 0}, {0, -1, 0}},
+    };
+    for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
+        ang_view view = ang_view_default;
+        assert_true(ang_view_parse(views[i].name, &view, NULL));
+        ang_camera camera = ang_camera_for(volume, &view);
+        check_direction(camera.forward, views[i].forward[0], views[i].forward[1], views[i].forward[2]);
+        check_direction(camera.right, views[i].right[0], views[i].right[1], views[i].right[2]);
+        check_direction(camera.up, views[i].up[0], views[i].up[1], views[i].up[2]);
+    }
+    ang_volume_free(volume);
+}
+
+static void standard_camera_is_that_of_the_design(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    ang_view view = ang_view_default;
+    view.zoom = 1.7;
+    assert_true(ang_view_parse("40,20", &view, NULL));
+    ang_camera camera = ang_camera_for(volume, &view);
+    double radius = sqrt(100. * 100 + 80 * 80 + 120 * 120) / 2, distance = radius / sin(15 * M_PI / 180) / 1.7;
+    /* bench/bench_vtk.py: (sin A cos E, -cos A cos E, sin E) */
+    double a = 40 * M_PI / 180, e = 20 * M_PI / 180;
+    ang_vec3 centre = {1e5 + 50, 40, -300 + 60};
+    assert_close(camera.eye.x, centre.x + distance * sin(a) * cos(e), 1e-9);
+    assert_close(camera.eye.y, centre.y - distance * cos(a) * cos(e), 1e-9);
+    assert_close(camera.eye.z, centre.z + distance * sin(e), 1e-9);
+    assert_close(camera.half_height, radius / 1.7, 1e-12);
+    assert_true(camera.up.z > 0.9);
+    ang_volume_free(volume);
+}
+
+static void bad_views_are_refused(void **state) {
+    (void)state;
+    static const char *const bad[] = {"front", "", "10", "10,", "10,95", "1,2,3,4", "1,2,x", "nan,0"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        ang_view view = ang_view_default;
+        ang_error err = {0};
+        assert_false(ang_view_parse(bad[i], &view, &err));
+        assert_int_equal(err.code, ANG_USAGE);
+    }
+}
+
+static void clip_boxes_are_read_in_mm_and_percent(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    ang_scene scene = ang_scene_default(volume);
+    assert_true(ang_scene_clip_parse("10,50%,0,200,20,40", volume, &scene, NULL));
+    check_direction(scene.clip_lower, 10, 0, 10);
+    check_direction(scene.clip_upper, 50, 80, 20);
+    assert_false(ang_scene_clip_parse("10,10,0,1,0,1", volume, &scene, NULL));
+    assert_false(ang_scene_clip_parse("0,1,0,1,0", volume, &scene, NULL));
+    assert_false(ang_scene_clip_parse("0,1,0,1,0,x", volume, &scene, NULL));
+    ang_volume_free(volume);
+}
+
+/* Rays must meet the box where a plain computation in mm says, for tilted affines too. */
+static void rays_enter_and_leave_where_a_plain_computation_says(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    volume->affine.m[1][2] = 0.7;
+    volume->affine.m[0][1] = -0.2;
+    uint64_t seed = 99;
+    for (int projection = 0; projection < 2; projection++)
+        for (int trial = 0; trial < 500; trial++) {
+            ang_scene scene = ang_scene_default(volume);
+            ang_view view = {.azimuth_deg = 360 * random_unit(&seed),
+                             .elevation_deg = 180 * random_unit(&seed) - 90,
+                             .zoom = 0.5 + 3 * random_unit(&seed),
+                             .projection = (ang_projection)projection,
+                             .fov_deg = 5 + 100 * random_unit(&seed)};
+            scene.camera = ang_camera_for(volume, &view);
+            ang_ray_frame frame;
+            assert_true(ang_ray_frame_make(volume, &scene, &frame, NULL));
+            double px = 512 * random_unit(&seed), py = 512 * random_unit(&seed);
+            ang_ray ray = ang_ray_through(&frame, px, py);
+
+            const ang_camera *camera = &scene.camera;
+            double half = projection == ANG_PERSPECTIVE ? tan(camera->fov_deg * M_PI / 360) : camera->half_height;
+            double right = (px - 256) / 256 * half, up = (256 - py) / 256 * half;
+            ang_vec3 offset = ang_vec3_add(ang_vec3_scale(camera->right, right), ang_vec3_scale(camera->up, up));
+            bool perspective = projection == ANG_PERSPECTIVE;
+            ang_vec3 start = perspective ? camera->eye : ang_vec3_add(camera->eye, offset);
+            ang_vec3 direction = perspective ? ang_vec3_unit(ang_vec3_add(camera->forward, offset)) : camera->forward;
+            check_direction(ang_vec3_sub(ray.direction_mm, direction), 0, 0, 0);
+            ang_mat4 to_index;
+            assert_true(ang_mat4_inverse(&volume->affine, &to_index));
+            ang_vec3 o = ang_mat4_point(&to_index, start), d = ang_mat4_direction(&to_index, direction);
+            double enter = camera->near_mm / ang_vec3_dot(direction, camera->forward), leave = INFINITY;
+            static const double top[3] = {100, 80, 60};
+            for (int axis = 0; axis < 3; axis++) {
+                double t0 = -ang_vec3_at(o, axis) / ang_vec3_at(d, axis);
+                double t1 = (top[axis] - ang_vec3_at(o, axis)) / ang_vec3_at(d, axis);
+                enter = fmax(enter, fmin(t0, t1));
+                leave = fmin(leave, fmax(t0, t1));
+            }
+            if (enter < leave - 1e-6) {
+                assert_close(ray.leave - ray.enter, leave - enter, 1e-6);
+                ang_vec3 a = ang_vec3_add(frame.centre, ang_vec3_along(ray.origin, ray.direction, ray.enter));
+                ang_vec3 b = ang_vec3_along(o, d, enter);
+                assert_close(ang_vec3_length(ang_vec3_sub(a, b)), 0, 1e-6);
+            } else if (enter > leave + 1e-6) {
+                assert_true(ray.enter >= ray.leave);
+            }
+        }
+    ang_volume_free(volume);
+}
+
+static void pictures_are_composited_over_their_background(void **state) {
+    (void)state;
+    ang_image image;
+    assert_true(ang_image_create(&image, 3, 1, NULL));
+    static const float in[12] = {0.25f, 0.5f, 0, 0.5f, 0, 0, 0, 0, 2, -1, 0.5f, 1};
+    for (int i = 0; i < 12; i++) image.rgba[i] = in[i];
+    static const double white[4] = {1, 1, 1, 1}, clear[4] = {1, 1, 1, 0}, half[4] = {0, 0, 1, 0.5};
+    float out[12];
+    ang_image_over(&image, white, out);
+    assert_close(out[0], 0.75, 1e-7);
+    assert_close(out[1], 1, 1e-7);
+    assert_close(out[4], 1, 0);
+    assert_close(out[8], 1, 0);
+    assert_close(out[9], 0, 0);
+    ang_image_over(&image, clear, out);
+    assert_close(out[0], 0.5, 1e-7);
+    assert_close(out[3], 0.5, 1e-7);
+    assert_close(out[7], 0, 0);
+    ang_image_over(&image, half, out);
+    assert_close(out[3], 0.75, 1e-7);
+    assert_close(out[2], 0.25 / 0.75, 1e-6);
+    ang_image_clear(&image);
+    ang_error err;
+    assert_false(ang_image_create(&image, 0, 5, &err));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(named_views_stand_where_they_say),
+        cmocka_unit_test(standard_camera_is_that_of_the_design),
+        cmocka_unit_test(bad_views_are_refused),
+        cmocka_unit_test(clip_boxes_are_read_in_mm_and_percent),
+        cmocka_unit_test(rays_enter_and_leave_where_a_plain_computation_says),
+        cmocka_unit_test(pictures_are_composited_over_their_background),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

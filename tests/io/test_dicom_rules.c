@@ -1,0 +1,535 @@
+/* The loading rules over synthetic slice records: no files. Numbers are those of the rules they test. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "io/checksum.h"
+#include "io/dicom/decode.h"
+#include "io/dicom/geometry.h"
+#include "io/dicom/mask.h"
+#include "io/dicom/series.h"
+#include "io/dicom/stored.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+enum { most = 64 };
+
+/* An axial CT slice at `z` mm. */
+static ang_dicom_slice slice_at(double z, int instance) {
+    ang_dicom_slice s = {.image = true,
+                         .modality = "CT",
+                         .series_uid = "1.2.3",
+                         .image_type = "ORIGINAL\\PRIMARY\\AXIAL",
+                         .samples = 1,
+                         .frames = 1,
+                         .rows = 4,
+                         .columns = 6,
+                         .bits_allocated = 16,
+                         .bits_stored = 12,
+                         .high_bit = 11,
+                         .has_position = true,
+                         .has_orientation = true,
+                         .has_spacing = true,
+                         .has_instance_number = true,
+                         .instance_number = instance,
+                         .position = {-10, -20, z},
+                         .row = {1, 0, 0},
+                         .column = {0, 1, 0},
+                         .row_spacing = 0.5,
+                         .column_spacing = 0.25,
+                         .has_slope = true,
+                         .has_intercept = true,
+                         .slope = 1,
+                         .intercept = -1024};
+    return s;
+}
+
+typedef struct grid_case {
+    ang_dicom_slice slices[most];
+    size_t order[most];
+    size_t count;
+    ang_dicom_grid grid;
+    ang_notes assumptions, warnings;
+    ang_error err;
+    bool ok;
+} grid_case;
+
+static void make_grid(grid_case *c) {
+    for (size_t i = 0; i < c->count; i++) c->order[i] = i;
+    ang_dicom_sort(c->slices, c->order, c->count, &c->assumptions);
+    c->ok = ang_dicom_geometry(c->slices, c->order, c->count, &c->grid, &c->assumptions, &c->warnings, &c->err);
+}
+
+static void clear_grid(grid_case *c) {
+    ang_dicom_grid_clear(&c->grid);
+    ang_notes_clear(&c->assumptions);
+    ang_notes_clear(&c->warnings);
+}
+
+static void test_order_is_by_position(void **state) {
+    (void)state;
+    double z[] = {5, -2.5, 0, 2.5};
+    grid_case c = {.count = 4};
+    for (int i = 0; i < 4; i++) c.slices[i] = slice_at(z[i], i + 1);
+    make_grid(&c);
+    assert_true(c.ok);
+    size_t expected[] = {1, 2, 3, 0};
+    assert_memory_equal(c.order, expected, sizeof expected);
+    /* the first value of PixelSpacing is between rows: along y */
+    assert_float_equal(c.grid.affine.m[0][0], 0.25, 1e-12);
+    assert_float_equal(c.grid.affine.m[1][1], 0.5, 1e-12);
+    assert_float_equal(c.grid.affine.m[2][2], 2.5, 1e-12);
+    assert_float_equal(c.grid.affine.m[0][3], -10, 1e-12);
+    assert_float_equal(c.grid.affine.m[1][3], -20, 1e-12);
+    assert_float_equal(c.grid.affine.m[2][3], -2.5, 1e-12);
+    assert_int_equal(c.grid.planes, 4);
+    assert_false(c.grid.interpolates);
+    assert_float_equal(c.grid.tilt_deg, 0, 1e-12);
+    assert_int_equal(c.warnings.count, 0);
+    clear_grid(&c);
+}
+
+static void test_spacing_ignores_thickness(void **state) {
+    (void)state;
+    grid_case c = {.count = 3};
+    for (int i = 0; i < 3; i++) {
+        c.slices[i] = slice_at(1.25 * i, i);
+        c.slices[i].has_thickness = c.slices[i].has_slice_distance = true;
+        c.slices[i].thickness = 5;
+        c.slices[i].slice_distance = 7;
+    }
+    make_grid(&c);
+    assert_true(c.ok);
+    assert_float_equal(c.grid.affine.m[2][2], 1.25, 1e-12);
+    clear_grid(&c);
+}
+
+static void test_order_without_positions(void **state) {
+    (void)state;
+    grid_case c = {.count = 3};
+    for (int i = 0; i < 3; i++) {
+        c.slices[i] = slice_at(0, 3 - i);
+        c.slices[i].has_position = false;
+        c.slices[i].has_slice_distance = true;
+        c.slices[i].slice_distance = 4;
+    }
+    make_grid(&c);
+    assert_true(c.ok);
+    size_t expected[] = {2, 1, 0};
+    assert_memory_equal(c.order, expected, sizeof expected);
+    assert_float_equal(c.grid.affine.m[2][2], 4, 1e-12);
+    assert_true(c.assumptions.count >= 2); /* the order, and the distance */
+    assert_true(c.warnings.count >= 1);
+    clear_grid(&c);
+}
+
+static void test_missing_slices(void **state) {
+    (void)state;
+    double z[] = {0, 2, 4, 10.1, 12.1}; /* 6.1 is within 5 % of three times 2 */
+    grid_case c = {.count = 5};
+    for (int i = 0; i < 5; i++) c.slices[i] = slice_at(z[i], i);
+    make_grid(&c);
+    assert_true(c.ok);
+    assert_false(c.grid.resampled);
+    assert_int_equal(c.grid.missing, 2);
+    assert_int_equal(c.grid.planes, 7);
+    assert_int_equal(c.grid.gap_count, 1);
+    assert_int_equal(c.grid.gaps[0].after, 2);
+    assert_int_equal(c.grid.gaps[0].missing, 2);
+    assert_float_equal(c.grid.gaps[0].mm, 6.1, 1e-9);
+    size_t below[] = {0, 1, 2, 2, 2, 3, 4};
+    assert_memory_equal(c.grid.below, below, sizeof below);
+    assert_float_equal(c.grid.weight[3], 1.0 / 3, 1e-6);
+    assert_float_equal(c.grid.weight[4], 2.0 / 3, 1e-6);
+    assert_float_equal(c.grid.weight[5], 0, 0);
+    assert_int_equal(c.warnings.count, 1);
+    clear_grid(&c);
+}
+
+static void test_small_deviations_are_regular(void **state) {
+    (void)state;
+    double z[] = {0, 2, 4.015, 6, 8};
+    grid_case c = {.count = 5};
+    for (int i = 0; i < 5; i++) c.slices[i] = slice_at(z[i], i);
+    make_grid(&c);
+    assert_true(c.ok);
+    assert_int_equal(c.grid.gap_count, 0);
+    assert_int_equal(c.grid.planes, 5);
+    clear_grid(&c);
+}
+
+static void test_irregular_is_resampled(void **state) {
+    (void)state;
+    /* gaps 4, 4, 4, 1.1, 0.5, 7: the median is 4, 1.1 is the smallest of at least a quarter of it */
+    double z[] = {0, 4, 8, 12, 13.1, 13.6, 20.6};
+    grid_case c = {.count = 7};
+    for (int i = 0; i < 7; i++) c.slices[i] = slice_at(z[i], i);
+    make_grid(&c);
+    assert_true(c.ok);
+    assert_true(c.grid.resampled);
+    assert_float_equal(c.grid.affine.m[2][2], 1.1, 1e-9);
+    assert_int_equal(c.grid.planes, 19); /* 20.6 / 1.1 = 18.7 */
+    assert_int_equal(c.grid.gap_count, 3);
+    for (size_t p = 0; p < c.grid.planes; p++) {
+        size_t i = c.grid.below[p];
+        double w = (double)c.grid.weight[p], next = i + 1 < 7 ? z[i + 1] : z[i];
+        assert_float_equal(z[i] + w * (next - z[i]), 1.1 * (double)p, 1e-5);
+    }
+    clear_grid(&c);
+}
+
+static void test_tilt_is_shear(void **state) {
+    (void)state;
+    double angle = 18.5 * acos(-1) / 180;
+    grid_case c = {.count = 10};
+    for (int i = 0; i < 10; i++) {
+        c.slices[i] = slice_at(3.0 * i, i); /* the table moves along z, the plane is tilted */
+        c.slices[i].column = (ang_vec3){0, cos(angle), -sin(angle)};
+        c.slices[i].has_tilt = true;
+        c.slices[i].tilt = -18.5; /* the vendor's sign is not ours */
+    }
+    make_grid(&c);
+    assert_true(c.ok);
+    assert_float_equal(c.grid.tilt_deg, 18.5, 1e-9);
+    assert_float_equal(c.grid.affine.m[2][2], 3, 1e-12);
+    assert_float_equal(c.grid.affine.m[1][2], 0, 1e-12);
+    assert_float_equal(c.grid.median, 3 * cos(angle), 1e-12);
+    assert_int_equal(c.grid.planes, 10);
+    clear_grid(&c);
+}
+
+static void test_degenerate_orientation(void **state) {
+    (void)state;
+    grid_case c = {.count = 2};
+    for (int i = 0; i < 2; i++) {
+        c.slices[i] = slice_at(i, i);
+        c.slices[i].column = c.slices[i].row;
+    }
+    make_grid(&c);
+    assert_false(c.ok);
+    assert_int_equal(c.err.code, ANG_GEOMETRY);
+    clear_grid(&c);
+}
+
+static void test_absurd_distances(void **state) {
+    (void)state;
+    grid_case c = {.count = 4};
+    double z[] = {0, 1, 2, 1e9};
+    for (int i = 0; i < 4; i++) c.slices[i] = slice_at(z[i], i);
+    make_grid(&c);
+    assert_false(c.ok);
+    assert_int_equal(c.err.code, ANG_LIMIT);
+    clear_grid(&c);
+}
+
+/* Slices of equal thickness stand for slices with the same pixels. */
+static bool same_by_tag(void *context, size_t a, size_t b) {
+    const ang_dicom_slice *slices = context;
+    return slices[a].thickness == slices[b].thickness;
+}
+
+static void test_grouping(void **state) {
+    (void)state;
+    ang_dicom_slice s[16];
+    size_t n = 0;
+    for (int i = 0; i < 5; i++) s[n++] = slice_at(5 - i, i);
+    s[n] = slice_at(0, 9); /* a scout in the same series */
+    s[n].row = (ang_vec3){0, 1, 0};
+    s[n++].column = (ang_vec3){0, 0, -1};
+    for (int i = 0; i < 3; i++) { /* another series */
+        s[n] = slice_at(i, i);
+        strcpy(s[n++].series_uid, "1.2.4");
+    }
+    s[n] = slice_at(0, 1);
+    strcpy(s[n].series_uid, "1.2.5");
+    strcpy(s[n++].image_type, "ORIGINAL\\PRIMARY\\LOCALIZER");
+    s[n] = slice_at(6, 10); /* the vendor's fourth value does not split a volume */
+    strcpy(s[n++].image_type, "ORIGINAL\\PRIMARY\\AXIAL\\ADD");
+    for (size_t i = 0; i < n; i++) s[i].file = i;
+
+    ang_dicom_groups groups;
+    ang_error err = {0};
+    assert_true(ang_dicom_group_slices(s, n, NULL, NULL, &groups, &err));
+    assert_int_equal(groups.count, 4);
+    assert_int_equal(groups.group[0].count, 6);
+    assert_true(groups.group[0].loadable);
+    assert_int_equal(groups.group[1].count, 1);
+    assert_false(groups.group[1].loadable);
+    assert_non_null(strstr(groups.group[1].remark, "localizer"));
+    assert_int_equal(groups.group[2].count, 3);
+    assert_false(groups.group[3].loadable);
+    assert_string_equal(groups.group[3].remark, "localizer");
+
+    size_t chosen;
+    assert_true(ang_dicom_choose(s, &groups, NULL, &chosen, &err));
+    assert_int_equal(chosen, 0);
+    assert_true(ang_dicom_choose(s, &groups, "3", &chosen, &err));
+    assert_int_equal(chosen, 2);
+    assert_true(ang_dicom_choose(s, &groups, ".2.4", &chosen, &err));
+    assert_int_equal(chosen, 2);
+    assert_false(ang_dicom_choose(s, &groups, "4", &chosen, &err));
+    assert_int_equal(err.code, ANG_INPUT);
+    assert_false(ang_dicom_choose(s, &groups, "17", &chosen, &err));
+    ang_dicom_groups_clear(&groups);
+}
+
+static void test_ct_wins(void **state) {
+    (void)state;
+    ang_dicom_slice s[9];
+    for (int i = 0; i < 9; i++) {
+        s[i] = slice_at(i, i);
+        if (i < 6) {
+            strcpy(s[i].series_uid, "1.2.1");
+            strcpy(s[i].modality, "MR");
+        }
+    }
+    ang_dicom_groups groups;
+    ang_error err = {0};
+    size_t chosen;
+    assert_true(ang_dicom_group_slices(s, 9, NULL, NULL, &groups, &err));
+    assert_true(ang_dicom_choose(s, &groups, NULL, &chosen, &err));
+    assert_int_equal(groups.group[chosen].count, 3);
+    ang_dicom_groups_clear(&groups);
+}
+
+static void test_duplicates_and_phases(void **state) {
+    (void)state;
+    ang_dicom_slice s[8];
+    for (int i = 0; i < 8; i++) {
+        s[i] = slice_at(i % 4 + (i >= 4 ? 5e-4 : 0), i);
+        s[i].thickness = i % 4;
+        s[i].file = (size_t)i;
+    }
+    ang_dicom_groups groups;
+    ang_error err = {0};
+    assert_true(ang_dicom_group_slices(s, 8, same_by_tag, s, &groups, &err));
+    assert_int_equal(groups.count, 1);
+    assert_int_equal(groups.group[0].count, 4);
+    assert_int_equal(groups.group[0].duplicates, 4);
+    ang_dicom_groups_clear(&groups);
+
+    for (int i = 0; i < 8; i++) { /* other pixels, and an acquisition time that tells them apart */
+        s[i].thickness = i;
+        snprintf(s[i].acquisition_time, sizeof s[i].acquisition_time, "1200%02d", i >= 4 ? 30 : 0);
+        s[i].instance_number = 100 - i;
+    }
+    assert_true(ang_dicom_group_slices(s, 8, same_by_tag, s, &groups, &err));
+    assert_int_equal(groups.count, 2);
+    for (size_t g = 0; g < 2; g++) {
+        assert_int_equal(groups.group[g].count, 4);
+        assert_int_equal(groups.group[g].phases, 2);
+        bool late = groups.group[g].order[0] >= 4;
+        for (int i = 0; i < 4; i++) assert_int_equal(groups.group[g].order[i] >= 4, late);
+    }
+    ang_dicom_groups_clear(&groups);
+
+    for (int i = 0; i < 8; i++) s[i].acquisition_time[0] = 0; /* nothing tells: by instance number */
+    assert_true(ang_dicom_group_slices(s, 8, same_by_tag, s, &groups, &err));
+    assert_int_equal(groups.count, 2);
+    assert_int_equal(groups.group[0].count, 4);
+    ang_dicom_groups_clear(&groups);
+}
+
+static void test_convert(void **state) {
+    (void)state;
+    uint16_t out[4];
+    const uint8_t overlay[] = {0xFF, 0xFF, 0x00, 0xF8, 0x34, 0xA2, 0xFF, 0x07}; /* bits above HighBit 11 */
+    ang_dicom_words words = {2, 12, 11, false, false};
+    ang_dicom_convert(overlay, 4, words, out);
+    assert_int_equal(out[0], 0xFFF);
+    assert_int_equal(out[1], 0x800);
+    assert_int_equal(out[2], 0x234);
+    assert_int_equal(out[3], 0x7FF);
+    words.is_signed = true;
+    ang_dicom_convert(overlay, 4, words, out);
+    assert_int_equal(out[0], 32768 - 1);
+    assert_int_equal(out[1], 32768 - 2048);
+    assert_int_equal(out[2], 32768 + 0x234);
+    assert_int_equal(out[3], 32768 + 2047);
+    words = (ang_dicom_words){2, 12, 15, false, false}; /* pixels in the high bits */
+    const uint8_t high[] = {0xF5, 0xFF, 0x15, 0x00};
+    ang_dicom_convert(high, 2, words, out);
+    assert_int_equal(out[0], 0xFFF);
+    assert_int_equal(out[1], 0x001);
+    words = (ang_dicom_words){2, 16, 15, true, true};
+    const uint8_t big[] = {0x80, 0x00, 0x00, 0x01, 0xFF, 0xFF};
+    ang_dicom_convert(big, 3, words, out);
+    assert_int_equal(out[0], 0);
+    assert_int_equal(out[1], 32769);
+    assert_int_equal(out[2], 32767);
+    words = (ang_dicom_words){1, 8, 7, false, false};
+    ang_dicom_convert(big, 2, words, out);
+    assert_int_equal(out[0], 0x80);
+    uint16_t place[] = {0x0000, 0x8000, 0xFFFF};
+    ang_dicom_convert(place, 3, (ang_dicom_words){2, 16, 15, true, false}, place);
+    assert_int_equal(place[0], 32768);
+    assert_int_equal(place[1], 0);
+    assert_int_equal(place[2], 32767);
+}
+
+static void test_padding_value(void **state) {
+    (void)state;
+    ang_dicom_slice s = slice_at(0, 0);
+    uint16_t first, last;
+    s.bits_stored = 16;
+    s.high_bit = 15;
+    assert_false(ang_dicom_padding(&s, &first, &last));
+    s.has_padding = true;
+    s.padding = 63536;
+    s.is_signed = true; /* whatever the VR says, it is -2000 */
+    assert_true(ang_dicom_padding(&s, &first, &last));
+    assert_int_equal(first, 32768 - 2000);
+    assert_int_equal(last, first);
+    s.has_padding_limit = true;
+    s.padding_limit = (uint16_t)-2010;
+    assert_true(ang_dicom_padding(&s, &first, &last));
+    assert_int_equal(first, 32768 - 2010);
+    assert_int_equal(last, 32768 - 2000);
+    s.is_signed = false;
+    s.bits_stored = 12; /* cannot occur: masking it would hit tissue */
+    assert_false(ang_dicom_padding(&s, &first, &last));
+}
+
+static void test_rescale(void **state) {
+    (void)state;
+    ang_dicom_slice s = slice_at(0, 0);
+    s.slope = 0;
+    assert_float_equal(ang_dicom_map_of(&s).slope, 1, 0);
+    s.has_slope = s.has_intercept = false;
+    assert_float_equal(ang_dicom_map_of(&s).slope, 1, 0);
+    assert_float_equal(ang_dicom_map_of(&s).intercept, 0, 0);
+    s.is_signed = true;
+    assert_float_equal(ang_dicom_map_of(&s).intercept, -32768, 0);
+
+    ang_dicom_map maps[] = {{1, -1024}, {1, -1024}};
+    uint16_t first[] = {0, 10}, last[] = {4000, 3000};
+    assert_true(ang_dicom_merge(maps, first, last, 2).same);
+    maps[1].intercept = -1000; /* whole steps apart: stays exact */
+    ang_dicom_common common = ang_dicom_merge(maps, first, last, 2);
+    assert_false(common.same);
+    assert_float_equal(common.error_hu, 0, 0);
+    for (int v = 10; v <= 3000; v += 13) {
+        double hu = common.map.slope * ang_dicom_remap((uint16_t)v, maps[1], common.map) + common.map.intercept;
+        assert_float_equal(hu, v - 1000, 1e-9);
+    }
+    maps[1].slope = 1.7; /* off the lattice: at most half a step */
+    common = ang_dicom_merge(maps, first, last, 2);
+    assert_false(common.same);
+    assert_true(common.error_hu > 0 && common.error_hu <= 0.5 + 1e-9);
+    maps[1] = maps[0];
+    maps[0].slope = maps[1].slope = -1;
+    common = ang_dicom_merge(maps, first, last, 2);
+    assert_false(common.same);
+    assert_true(common.map.slope > 0);
+    assert_float_equal(common.error_hu, 0, 0);
+}
+
+static void test_masks(void **state) {
+    (void)state;
+    enum { count = 1000 };
+    for (int offset = 0; offset < 70; offset += 23) {
+        uint16_t data[count], copy[count];
+        uint64_t mask[(count + 200) / 64] = {0};
+        uint32_t random = 12345;
+        for (int i = 0; i < count; i++) {
+            random = random * 1664525 + 1013904223;
+            data[i] = copy[i] = (uint16_t)(random >> 16 & 0xFF);
+        }
+        ang_mask_range range = {20, 60, 7};
+        uint16_t least, greatest;
+        size_t counted = ang_mask_count(data, count, range, &least, &greatest);
+        ang_mask_result result = ang_mask_mark(data, count, (size_t)offset, range, mask);
+        size_t expected = 0;
+        uint16_t low = 65535, high = 0;
+        for (int i = 0; i < count; i++) {
+            bool is = copy[i] >= 20 && copy[i] <= 60;
+            size_t bit = (size_t)(i + offset);
+            assert_int_equal(mask[bit / 64] >> (bit % 64) & 1, is);
+            assert_int_equal(data[i], is ? 7 : copy[i]);
+            expected += is;
+            if (!is && copy[i] < low) low = copy[i];
+            if (!is && copy[i] > high) high = copy[i];
+        }
+        assert_int_equal(counted, expected);
+        assert_int_equal(result.count, expected);
+        assert_int_equal(least, low);
+        assert_int_equal(result.least, low);
+        assert_int_equal(greatest, high);
+        assert_int_equal(result.greatest, high);
+    }
+}
+
+static void test_rle(void **state) {
+    (void)state;
+    uint8_t stream[64 + 12] = {2, 0, 0, 0, 64, 0, 0, 0, 68, 0, 0, 0};
+    const uint8_t high[] = {0xFD, 0x12, 0x00, 0x34}; /* 4 x 0x12, 1 x 0x34 */
+    const uint8_t low[] = {0x04, 1, 2, 3, 4, 5, 0x80, 0x80};
+    memcpy(stream + 64, high, sizeof high);
+    memcpy(stream + 68, low, sizeof low);
+    uint8_t out[10];
+    assert_true(ang_dicom_rle(stream, sizeof stream, 5, 2, out));
+    const uint8_t expected[] = {1, 0x12, 2, 0x12, 3, 0x12, 4, 0x12, 5, 0x34};
+    assert_memory_equal(out, expected, sizeof expected);
+    assert_false(ang_dicom_rle(stream, 70, 5, 2, out));
+    assert_false(ang_dicom_rle(stream, sizeof stream, 5, 1, out));
+    assert_false(ang_dicom_rle(stream, 10, 5, 2, out));
+    stream[8] = 200;
+    assert_false(ang_dicom_rle(stream, sizeof stream, 5, 2, out));
+}
+
+static void test_checksum(void **state) {
+    (void)state;
+    uint8_t bytes[1000];
+    for (int i = 0; i < 1000; i++) bytes[i] = (uint8_t)(i * i * 7 + i / 3);
+    for (size_t begin = 0; begin < 20; begin += 3) {
+        for (size_t length = 0; begin + length <= 1000; length = length * 5 / 4 + 1) {
+            uLong expected = crc32(crc32(0, NULL, 0), bytes + begin, (uInt)length);
+            assert_int_equal(ang_checksum(0, bytes + begin, length), expected);
+            expected = crc32(0xDEADBEEF, bytes + begin, (uInt)length);
+            assert_int_equal(ang_checksum(0xDEADBEEF, bytes + begin, length), expected);
+        }
+    }
+}
+
+static void test_image_type_values(void **state) {
+    (void)state;
+    char text[9];
+    ang_dicom_value("ORIGINAL\\PRIMARY\\AXIAL ", 2, text, sizeof text);
+    assert_string_equal(text, "AXIAL");
+    ang_dicom_value("ORIGINAL\\PRIMARY", 2, text, sizeof text);
+    assert_string_equal(text, "");
+    ang_dicom_value("ABCDEFGHIJKLMNOP", 0, text, sizeof text);
+    assert_string_equal(text, "ABCDEFGH");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_order_is_by_position),
+        cmocka_unit_test(test_spacing_ignores_thickness),
+        cmocka_unit_test(test_order_without_positions),
+        cmocka_unit_test(test_missing_slices),
+        cmocka_unit_test(test_small_deviations_are_regular),
+        cmocka_unit_test(test_irregular_is_resampled),
+        cmocka_unit_test(test_tilt_is_shear),
+        cmocka_unit_test(test_degenerate_orientation),
+        cmocka_unit_test(test_absurd_distances),
+        cmocka_unit_test(test_grouping),
+        cmocka_unit_test(test_ct_wins),
+        cmocka_unit_test(test_duplicates_and_phases),
+        cmocka_unit_test(test_convert),
+        cmocka_unit_test(test_padding_value),
+        cmocka_unit_test(test_rescale),
+        cmocka_unit_test(test_masks),
+        cmocka_unit_test(test_rle),
+        cmocka_unit_test(test_checksum),
+        cmocka_unit_test(test_image_type_values),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,230 @@
+#include "io/image/image_io.h"
+#include "io/replace.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#ifndef ANG_TEST_TMP
+#define ANG_TEST_TMP "."
+#endif
+
+enum { W = 37, H = 23 };
+static const double black[4] = {0, 0, 0, 1};
+static const double none[4] = {0, 0, 0, 0};
+static char folder[512];
+
+static int setup(void **state) {
+    (void)state;
+    snprintf(folder, sizeof folder, ANG_TEST_TMP "/image_io-%ld", (long)getpid());
+    ang_error err;
+    return ang_folder_make(folder, &err) ? 0 : -1;
+}
+
+static int teardown(void **state) {
+    (void)state;
+    DIR *dir = opendir(folder);
+    for (struct dirent *entry; dir && (entry = readdir(dir));) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (entry->d_name[0] != '.' || strncmp(entry->d_name, ".ang", 4) == 0) remove(path);
+    }
+    if (dir) closedir(dir);
+    return rmdir(folder);
+}
+
+static const char *at(const char *name) {
+    static char path[1024];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+/* Premultiplied ramps; alpha too where asked for. */
+static ang_image ramp(bool translucent) {
+    ang_image image;
+    ang_error err;
+    assert_true(ang_image_create(&image, W, H, &err));
+    for (int y = 0; y < H; y++) {
+        for (int x = 0; x < W; x++) {
+            float *p = image.rgba + 4 * ((size_t)y * W + (size_t)x);
+            float a = translucent ? (float)(x + 1) / W : 1;
+            p[0] = a * (float)x / (W - 1);
+            p[1] = a * (float)y / (H - 1);
+            p[2] = a * 0.3F;
+            p[3] = a;
+        }
+    }
+    return image;
+}
+
+static double largest_difference(const ang_image *a, const ang_image *b, int channels) {
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    double largest = 0;
+    for (size_t i = 0; i < 4 * (size_t)a->width * (size_t)a->height; i++) {
+        if ((int)(i % 4) < channels) largest = fmax(largest, fabs((double)a->rgba[i] - (double)b->rgba[i]));
+    }
+    return largest;
+}
+
+static void round_trip(const char *name, bool translucent, const double background[4], double tolerance) {
+    ang_image image = ramp(translucent), back;
+    ang_error err = {0};
+    if (!ang_image_write(at(name), &image, background, &err)) fail_msg("%s", err.message);
+    if (!ang_picture_read(at(name), &back, &err)) fail_msg("%s", err.message);
+    double difference = largest_difference(&image, &back, 4);
+    if (difference > tolerance) fail_msg("%s: differs by %g", name, difference);
+    ang_image_clear(&image);
+    ang_image_clear(&back);
+}
+
+static void every_format_comes_back(void **state) {
+    (void)state;
+    round_trip("a.ppm", false, black, 0.5001 / 255);
+    round_trip("a.pfm", false, black, 0);
+#ifdef ANG_WITH_OIIO
+    round_trip("a.png", false, black, 0.5001 / 255);
+    round_trip("a.TIFF", false, black, 0.5001 / 255);
+    round_trip("a.exr", false, black, 0);
+    /* Alpha and the unassociated colour are each rounded to 8 bits. */
+    round_trip("b.png", true, none, 1.01 / 255);
+    round_trip("b.tif", true, none, 1.01 / 255);
+    round_trip("b.exr", true, none, 0);
+#endif
+}
+
+static void float_is_not_clipped_and_keeps_rows(void **state) {
+    (void)state;
+    const char *names[] = {"c.pfm", "c.exr"};
+    for (size_t n = 0; n < 2; n++) {
+#ifndef ANG_WITH_OIIO
+        if (n == 1) break;
+#endif
+        ang_image image = ramp(false), back;
+        image.rgba[0] = 7.5F;
+        image.rgba[1] = -0.25F;
+        ang_error err;
+        assert_true(ang_image_write(at(names[n]), &image, black, &err));
+        assert_true(ang_picture_read(at(names[n]), &back, &err));
+        assert_true(back.rgba[0] == 7.5F && back.rgba[1] == -0.25F);
+        assert_true(largest_difference(&image, &back, 4) == 0);
+        ang_image_clear(&image);
+        ang_image_clear(&back);
+    }
+}
+
+static void background_shows_through(void **state) {
+    (void)state;
+    ang_image image, back;
+    ang_error err;
+    assert_true(ang_image_create(&image, 3, 2, &err));
+    for (int i = 0; i < 6; i++) {
+        image.rgba[4 * i] = 0.5F; /* half transparent red */
+        image.rgba[4 * i + 3] = 0.5F;
+    }
+    const double white[4] = {1, 1, 1, 1}, half[4] = {0, 1, 0, 0.5};
+    assert_true(ang_image_write(at("d.ppm"), &image, white, &err));
+    assert_true(ang_picture_read(at("d.ppm"), &back, &err));
+    assert_true(fabsf(back.rgba[0] - 1) < 1e-6F && fabsf(back.rgba[1] - 128.0F / 255) < 1e-6F);
+    ang_image_clear(&back);
+#ifdef ANG_WITH_OIIO
+    assert_true(ang_image_write(at("d.exr"), &image, half, &err));
+    assert_true(ang_picture_read(at("d.exr"), &back, &err));
+    assert_true(fabsf(back.rgba[0] - 0.5F) < 1e-6F && fabsf(back.rgba[1] - 0.25F) < 1e-6F);
+    assert_true(fabsf(back.rgba[3] - 0.75F) < 1e-6F);
+    ang_image_clear(&back);
+#else
+    (void)half;
+#endif
+    ang_image_clear(&image);
+}
+
+static int files_in_folder(void) {
+    int count = 0;
+    DIR *dir = opendir(folder);
+    while (dir && readdir(dir)) count++;
+    if (dir) closedir(dir);
+    return count;
+}
+
+static void failures_name_the_file_and_leave_nothing(void **state) {
+    (void)state;
+    ang_image image = ramp(false);
+    ang_error err = {0};
+    assert_false(ang_image_write(at("e.jpg"), &image, black, &err));
+    assert_int_equal(err.code, ANG_USAGE);
+    assert_false(ang_image_writable(at("e"), &err));
+    assert_true(ang_image_writable(at("e.ppm"), &err));
+    assert_false(ang_image_write(at("no-folder/e.ppm"), &image, black, &err));
+    assert_int_equal(err.code, ANG_OUTPUT);
+    assert_non_null(strstr(err.message, "no-folder/e.ppm"));
+    assert_non_null(strstr(err.message, "No such file"));
+    assert_int_equal(mkdir(at("e.pfm"), 0777), 0);
+    int before = files_in_folder();
+    assert_false(ang_image_write(at("e.pfm"), &image, black, &err));
+    assert_int_equal(err.code, ANG_OUTPUT);
+    assert_int_equal(files_in_folder(), before);
+    rmdir(at("e.pfm"));
+    ang_image_clear(&image);
+}
+
+static void broken_pictures_are_refused(void **state) {
+    (void)state;
+    static const char *const names[] = {"f.ppm", "f.pfm", "f.png", "f.tif", "f.exr"};
+    static const char *const contents[] = {"", "P6\n3 3\n255\nabc", "PF 99999999 99999999 -1\n", "\x89PNG\r\n\x1a\n",
+                                           "II*\0"};
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        for (size_t c = 0; c < sizeof contents / sizeof *contents; c++) {
+            ang_error err = {0};
+            assert_true(ang_file_replace(at(names[n]), contents[c], strlen(contents[c]), &err));
+            ang_image image;
+            assert_false(ang_picture_read(at(names[n]), &image, &err));
+            assert_true(err.code == ANG_INPUT || err.code == ANG_USAGE);
+            assert_null(image.rgba);
+        }
+    }
+}
+
+/* No dates, paths or host names: the same picture gives the same bytes. */
+static void files_hold_nothing_that_identifies(void **state) {
+    (void)state;
+#ifdef ANG_WITH_OIIO
+    static const char *const names[] = {"g.png", "g.tif", "g.exr"};
+    char year[16];
+    time_t now = time(NULL);
+    strftime(year, sizeof year, "%Y:", localtime(&now));
+    const char *words[] = {year, "tIME", "HostComputer", "Artist", "owner", ANG_TEST_TMP};
+    ang_image image = ramp(false);
+    for (size_t n = 0; n < 3; n++) {
+        ang_error err;
+        assert_true(ang_image_write(at(names[n]), &image, black, &err));
+        FILE *file = fopen(at(names[n]), "rb");
+        static char bytes[65536];
+        size_t size = fread(bytes, 1, sizeof bytes, file);
+        fclose(file);
+        for (size_t w = 0; w < sizeof words / sizeof *words; w++) {
+            if (memmem(bytes, size, words[w], strlen(words[w]))) fail_msg("%s holds %s", names[n], words[w]);
+        }
+    }
+    ang_image_clear(&image);
+#endif
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_format_comes_back),     cmocka_unit_test(float_is_not_clipped_and_keeps_rows),
+        cmocka_unit_test(background_shows_through),    cmocka_unit_test(failures_name_the_file_and_leave_nothing),
+        cmocka_unit_test(broken_pictures_are_refused), cmocka_unit_test(files_hold_nothing_that_identifies),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}

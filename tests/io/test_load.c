@@ -1,0 +1,738 @@
+/* Loading real data (skipped where it is absent) and small files written here, against independent tools and hand
+ * computation. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "io/load.h"
+#include "io/report.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#define FOLDER ANG_TEST_TMP "/load"
+
+static bool have_data(void) {
+    if (access(ANG_SHARED_DATA "/README.md", R_OK) == 0) return true;
+    print_message("skipped: no real data at %s\n", ANG_SHARED_DATA);
+    return false;
+}
+
+static ang_volume *load(const char *path, ang_load_report *report) {
+    ang_error err = {0};
+    ang_volume *volume = ang_load(path, NULL, report, NULL, &err);
+    if (!volume) print_message("%s: %s\n", path, err.message);
+    assert_non_null(volume);
+    return volume;
+}
+
+static void must_fail(const char *path, ang_code code, const char *needle) {
+    ang_load_report report;
+    ang_error err = {0};
+    ang_volume *volume = ang_load(path, NULL, &report, NULL, &err);
+    assert_null(volume);
+    assert_int_equal(err.code, code);
+    if (!strstr(err.message, needle)) print_message("%s\n", err.message);
+    assert_non_null(strstr(err.message, needle));
+    assert_null(strchr(err.message, '\n'));
+    ang_load_report_clear(&report);
+}
+
+static void fresh_folder(void) { assert_int_equal(system("rm -rf '" FOLDER "' && mkdir -p '" FOLDER "'"), 0); }
+
+/* ---- small DICOM files ---- */
+
+typedef struct file {
+    uint8_t bytes[8192];
+    size_t size;
+} file;
+
+static void put(file *f, uint16_t group, uint16_t element, const char *vr, const void *value, size_t length) {
+    uint8_t head[12] = {(uint8_t)group,          (uint8_t)(group >> 8), (uint8_t)element,
+                        (uint8_t)(element >> 8), (uint8_t)vr[0],        (uint8_t)vr[1]};
+    size_t padded = length + length % 2, head_size = 8;
+    if (vr[0] == 'O') {
+        head[8] = (uint8_t)padded;
+        head[9] = (uint8_t)(padded >> 8);
+        head_size = 12;
+    } else {
+        head[6] = (uint8_t)padded;
+        head[7] = (uint8_t)(padded >> 8);
+    }
+    memcpy(f->bytes + f->size, head, head_size);
+    f->size += head_size;
+    memcpy(f->bytes + f->size, value, length);
+    if (length % 2) f->bytes[f->size + length] = ' ';
+    f->size += padded;
+}
+
+static void put_text(file *f, uint16_t group, uint16_t element, const char *vr, const char *text) {
+    put(f, group, element, vr, text, strlen(text));
+}
+
+static void put_word(file *f, uint16_t group, uint16_t element, int value) {
+    uint8_t bytes[2] = {(uint8_t)value, (uint8_t)(value >> 8)};
+    put(f, group, element, "US", bytes, 2);
+}
+
+enum { width = 5, height = 3 };
+
+/* What small() writes; zero means the usual. */
+typedef struct form {
+    double z;
+    int instance;
+    const char *slope, *intercept, *photometric;
+    bool no_rows, is_signed, has_padding, cut;
+    int padding;
+    uint16_t pixels[width * height];
+} form;
+
+static void small(const char *name, const form *form) {
+    file f = {.size = 132};
+    memcpy(f.bytes + 128, "DICM", 4);
+    char text[64];
+    put_text(&f, 2, 0x10, "UI", "1.2.840.10008.1.2.1");
+    put_text(&f, 8, 0x08, "CS", "ORIGINAL\\PRIMARY\\AXIAL");
+    put_text(&f, 8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.2");
+    put_text(&f, 8, 0x60, "CS", "CT");
+    put_text(&f, 8, 0x103E, "LO", "JOHN DOE HEAD");
+    put_text(&f, 0x20, 0x0E, "UI", "1.2.3.4");
+    snprintf(text, sizeof text, "%d", form->instance);
+    put_text(&f, 0x20, 0x13, "IS", text);
+    snprintf(text, sizeof text, "-1\\-2\\%g", form->z);
+    put_text(&f, 0x20, 0x32, "DS", text);
+    put_text(&f, 0x20, 0x37, "DS", "1\\0\\0\\0\\1\\0");
+    put_text(&f, 0x28, 0x04, "CS", form->photometric ? form->photometric : "MONOCHROME2");
+    if (!form->no_rows) put_word(&f, 0x28, 0x10, height);
+    put_word(&f, 0x28, 0x11, width);
+    put_text(&f, 0x28, 0x30, "DS", "0.5\\0.25");
+    put_word(&f, 0x28, 0x100, 16);
+    put_word(&f, 0x28, 0x101, 16);
+    put_word(&f, 0x28, 0x102, 15);
+    put_word(&f, 0x28, 0x103, form->is_signed);
+    if (form->has_padding) put_word(&f, 0x28, 0x120, form->padding);
+    put_text(&f, 0x28, 0x1052, "DS", form->intercept ? form->intercept : "-1024");
+    put_text(&f, 0x28, 0x1053, "DS", form->slope ? form->slope : "1");
+    uint8_t pixels[2 * width * height];
+    for (int i = 0; i < width * height; i++) {
+        pixels[2 * i] = (uint8_t)form->pixels[i];
+        pixels[2 * i + 1] = (uint8_t)(form->pixels[i] >> 8);
+    }
+    put(&f, 0x7FE0, 0x10, "OW", pixels, sizeof pixels);
+    char path[512];
+    snprintf(path, sizeof path, FOLDER "/%s", name);
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    fwrite(f.bytes, 1, f.size - (form->cut ? 7 : 0), out);
+    fclose(out);
+}
+
+static form form_at(double z, int value) {
+    form f = {.z = z, .instance = (int)z};
+    for (int i = 0; i < width * height; i++) f.pixels[i] = (uint16_t)(value + i);
+    return f;
+}
+
+static double hu_at(const ang_volume *v, int x, int y, int z) {
+    size_t i = ((size_t)z * (size_t)v->dims[1] + (size_t)y) * (size_t)v->dims[0] + (size_t)x;
+    return ang_volume_hu(v, v->data[i]);
+}
+
+static void test_small_series(void **state) {
+    (void)state;
+    fresh_folder();
+    for (int i = 0; i < 5; i++) { /* names run against positions; one slice is missing, one is twice there */
+        form f = form_at(i < 3 ? i : i + 1, 1000 + 100 * i);
+        char name[32];
+        snprintf(name, sizeof name, "slice%d", 9 - i);
+        small(name, &f);
+        if (i == 1) small("again", &f);
+    }
+    FILE *stray = fopen(FOLDER "/notes.txt", "w");
+    fputs("not an image\n", stray);
+    fclose(stray);
+    ang_load_report report;
+    ang_volume *v = load(FOLDER, &report);
+    assert_int_equal(v->dims[0], width);
+    assert_int_equal(v->dims[1], height);
+    assert_int_equal(v->dims[2], 6);
+    assert_int_equal(report.slices_duplicate, 1);
+    assert_int_equal(report.slices_missing, 1);
+    assert_int_equal(report.gap_count, 1);
+    assert_int_equal(report.gaps[0].after, 2);
+    assert_float_equal(hu_at(v, 0, 0, 0), -24, 1e-9);
+    assert_float_equal(hu_at(v, 4, 2, 2), 190, 1e-9);
+    assert_float_equal(hu_at(v, 0, 0, 3), 226, 1e-9); /* between 176 and 276 */
+    assert_float_equal(hu_at(v, 0, 0, 5), 376, 1e-9);
+    assert_float_equal(v->affine.m[0][0], 0.25, 1e-9);
+    assert_float_equal(v->affine.m[2][2], 1, 1e-9);
+    uLong crc = crc32(0, NULL, 0);
+    for (int i = 0; i < 5; i++) {
+        form f = form_at(0, 1000 + 100 * i);
+        crc = crc32(crc, (const Bytef *)f.pixels, sizeof f.pixels);
+    }
+    assert_int_equal(report.stored_crc32, crc);
+
+    cJSON *json = ang_load_report_json(v, &report, false);
+    char *text = cJSON_PrintUnformatted(json);
+    assert_null(strstr(text, "JOHN"));
+    assert_null(strstr(text, "1.2.3.4"));
+    assert_non_null(strstr(text, "\"stored_crc32\""));
+    free(text);
+    cJSON_Delete(json);
+    json = ang_load_report_json(v, &report, true);
+    text = cJSON_PrintUnformatted(json);
+    assert_non_null(strstr(text, "JOHN DOE HEAD"));
+    free(text);
+    cJSON_Delete(json);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+static void test_broken_slices_are_missing(void **state) {
+    (void)state;
+    fresh_folder();
+    for (int i = 0; i < 5; i++) {
+        form f = form_at(i, 1000 + 100 * i);
+        f.cut = i == 2;
+        char name[32];
+        snprintf(name, sizeof name, "JOHN_DOE_%d", i);
+        small(name, &f);
+    }
+    ang_load_report report;
+    ang_volume *v = load(FOLDER, &report);
+    assert_int_equal(v->dims[2], 5);
+    assert_int_equal(report.slices_missing, 1);
+    assert_float_equal(hu_at(v, 0, 0, 2), 176, 1e-9);
+    bool named = false;
+    for (size_t i = 0; i < report.warnings.count; i++) named = named || strstr(report.warnings.text[i], "JOHN_DOE_2");
+    assert_true(named);
+    cJSON *json = ang_load_report_json(v, &report, false);
+    char *text = cJSON_PrintUnformatted(json);
+    assert_null(strstr(text, "JOHN"));
+    free(text);
+    cJSON_Delete(json);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+
+    ang_load_options strict = {.strict = true};
+    ang_error err = {0};
+    assert_null(ang_load(FOLDER, &strict, &report, NULL, &err));
+    assert_int_equal(err.code, ANG_GEOMETRY);
+    ang_load_report_clear(&report);
+}
+
+static void test_clear_errors(void **state) {
+    (void)state;
+    fresh_folder();
+    form f = form_at(0, 1000);
+    f.no_rows = true;
+    small("000012.dcm", &f);
+    must_fail(FOLDER "/000012.dcm", ANG_INPUT, "000012.dcm: (0028,0010) Rows is missing");
+    f.no_rows = false;
+    f.cut = true;
+    small("cut.dcm", &f);
+    must_fail(FOLDER "/cut.dcm", ANG_INPUT, "cut.dcm: (7FE0,0010) PixelData is cut off");
+    must_fail(FOLDER, ANG_INPUT, "none of 2 DICOM files");
+    must_fail(FOLDER "/nowhere", ANG_INPUT, "nowhere");
+    must_fail("/dev/null", ANG_INPUT, "neither a file nor a folder");
+    fresh_folder();
+    must_fail(FOLDER, ANG_INPUT, "empty");
+}
+
+static void test_rescale_by_slice(void **state) {
+    (void)state;
+    fresh_folder();
+    for (int i = 0; i < 4; i++) {
+        form f = form_at(i, 1000);
+        f.slope = i % 2 ? "2" : "1";
+        f.intercept = i % 2 ? "-2000" : "-1024";
+        char name[8];
+        snprintf(name, sizeof name, "%d", i);
+        small(name, &f);
+    }
+    ang_load_report report;
+    ang_volume *v = load(FOLDER, &report);
+    for (int z = 0; z < 4; z++) {
+        for (int x = 0; x < width; x++)
+            assert_float_equal(hu_at(v, x, 0, z), (z % 2 ? 2 * (1000 + x) - 2000 : 1000 + x - 1024), 1e-9);
+    }
+    assert_float_equal(report.rescale_error_hu, 0, 1e-12);
+    assert_float_equal(ang_volume_hu(v, v->minimum), -24, 1e-9);
+    assert_float_equal(ang_volume_hu(v, v->maximum), 28, 1e-9);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+
+    fresh_folder();
+    form f = form_at(0, 1000);
+    f.slope = "-1";
+    f.intercept = "0";
+    f.photometric = "MONOCHROME1";
+    small("negative", &f);
+    v = load(FOLDER, &report);
+    assert_true(v->slope > 0);
+    assert_float_equal(hu_at(v, 3, 1, 0), -1008, 1e-9);
+    assert_true(report.assumptions.count >= 2);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+static void test_declared_padding(void **state) {
+    (void)state;
+    fresh_folder();
+    for (int i = 0; i < 3; i++) {
+        form f = form_at(i, 0);
+        f.is_signed = f.has_padding = true;
+        f.padding = 63536; /* -2000 in signed data */
+        f.intercept = "0";
+        f.pixels[7] = (uint16_t)-2000;
+        char name[8];
+        snprintf(name, sizeof name, "%d", i);
+        small(name, &f);
+    }
+    ang_load_report report;
+    ang_volume *v = load(FOLDER, &report);
+    assert_true(report.padding_declared);
+    assert_int_equal(v->padding_count, 3);
+    assert_float_equal(report.padding_hu, -2000, 0);
+    assert_float_equal(hu_at(v, 2, 1, 1), -1000, 1e-9);
+    assert_true(ang_volume_is_padding(v, 15 + 7));
+    assert_false(ang_volume_is_padding(v, 15 + 8));
+    assert_float_equal(ang_volume_hu(v, v->minimum), 0, 1e-9);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+static bool stop_at_once(void *context, const char *what, double fraction) {
+    (void)what, (void)fraction;
+    atomic_fetch_add((atomic_int *)context, 1);
+    return false;
+}
+
+static void test_interrupt(void **state) {
+    (void)state;
+    fresh_folder();
+    form f = form_at(0, 0);
+    small("a", &f);
+    atomic_int calls = 0;
+    ang_progress progress = {stop_at_once, &calls};
+    ang_load_report report;
+    ang_error err = {0};
+    assert_null(ang_load(FOLDER, NULL, &report, &progress, &err));
+    assert_int_equal(err.code, ANG_INTERRUPTED);
+    assert_true(calls > 0);
+    ang_load_report_clear(&report);
+}
+
+/* ---- raw and NIfTI ---- */
+
+static void write_file(const char *name, const void *bytes, size_t size) {
+    char path[512];
+    snprintf(path, sizeof path, FOLDER "/%s", name);
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    assert_int_equal(fwrite(bytes, 1, size, out), size);
+    fclose(out);
+}
+
+static void test_raw(void **state) {
+    (void)state;
+    fresh_folder();
+    int16_t values[24];
+    for (int i = 0; i < 24; i++) values[i] = (int16_t)(100 * i - 1000);
+    write_file("v.raw", values, sizeof values);
+    ang_load_options options = {.raw_dims = "2x3x4", .raw_type = "i16", .raw_spacing = "1,2,0.5"};
+    ang_load_report report;
+    ang_error err = {0};
+    ang_volume *v = ang_load(FOLDER "/v.raw", &options, &report, NULL, &err);
+    assert_non_null(v);
+    assert_float_equal(hu_at(v, 1, 2, 3), 1300, 1e-9);
+    assert_float_equal(v->affine.m[1][1], 2, 1e-12);
+    ang_vec3 centre = ang_volume_centre(v);
+    assert_float_equal(ang_vec3_length(centre), 0, 1e-12);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+
+    options.raw_dims = "2x3x5";
+    assert_null(ang_load(FOLDER "/v.raw", &options, &report, NULL, &err));
+    assert_int_equal(err.code, ANG_INPUT);
+    ang_load_report_clear(&report);
+    options.raw_dims = "2000000x2000000x2000000";
+    assert_null(ang_load(FOLDER "/v.raw", &options, &report, NULL, &err));
+    ang_load_report_clear(&report);
+    options.raw_dims = "2x3";
+    assert_null(ang_load(FOLDER "/v.raw", &options, &report, NULL, &err));
+    assert_int_equal(err.code, ANG_USAGE);
+    ang_load_report_clear(&report);
+
+    float floats[8] = {-1000.5F, 0, 1000.25F, NAN, INFINITY, -INFINITY, 3, 4};
+    gzFile gz = gzopen(FOLDER "/f.raw.gz", "wb");
+    gzwrite(gz, floats, sizeof floats);
+    gzclose(gz);
+    const char sidecar[] = "{\"dims\": [2, 2, 2], \"type\": \"f32\", \"spacing\": [1, 1, 3]}";
+    write_file("f.raw.json", sidecar, sizeof sidecar - 1);
+    v = load(FOLDER "/f.raw.gz", &report);
+    assert_int_equal(report.nan_count, 1);
+    assert_int_equal(report.inf_count, 2);
+    assert_float_equal(report.quantisation_hu, 2000.75 / 65535, 1e-6);
+    assert_float_equal(hu_at(v, 0, 1, 0), 1000.25, 0.02);
+    assert_float_equal(hu_at(v, 1, 1, 0), -1000.5, 0.02); /* not a number: the least */
+    assert_float_equal(hu_at(v, 0, 0, 1), 1000.25, 0.02);
+    assert_float_equal(hu_at(v, 1, 0, 1), -1000.5, 0.02);
+    assert_float_equal(hu_at(v, 0, 1, 1), 3, 0.02);
+    assert_float_equal(ang_volume_spacing(v, 2), 3, 1e-9);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+    write_file("f.raw.json", "{\"dims\": 3}", 11);
+    must_fail(FOLDER "/f.raw.gz", ANG_INPUT, "f.raw.json: \"dims\"");
+}
+
+#ifdef ANG_WITH_NIFTI
+
+/* A NIfTI-1 header by its byte offsets, little endian. */
+static void nifti_header(uint8_t h[352], const int16_t dim[8], int type, int bits) {
+    memset(h, 0, 352);
+    h[0] = 92;
+    h[1] = 1;
+    memcpy(h + 40, dim, 16);
+    h[70] = (uint8_t)type;
+    h[71] = (uint8_t)(type >> 8);
+    h[72] = (uint8_t)bits;
+    float pixdim[8] = {1, 0.5F, 0.75F, 2, 1, 1, 1, 1}, offset = 352;
+    memcpy(h + 76, pixdim, sizeof pixdim);
+    memcpy(h + 108, &offset, 4);
+    memcpy(h + 344, "n+1", 4);
+}
+
+static void test_nifti(void **state) {
+    (void)state;
+    fresh_folder();
+    struct {
+        uint8_t header[352];
+        int16_t voxels[2 * 3 * 2 * 2];
+    } f;
+    int16_t dim[8] = {4, 2, 3, 2, 2, 1, 1, 1};
+    nifti_header(f.header, dim, 4, 16);
+    for (int i = 0; i < 24; i++) f.voxels[i] = (int16_t)(i - 5);
+    float slope = -2, inter = 10, rows[12] = {-0.5F, 0, 0, 7, 0, 0.75F, 0.1F, 8, 0, 0, 2, 9};
+    memcpy(f.header + 112, &slope, 4);
+    memcpy(f.header + 116, &inter, 4);
+    f.header[254] = 1; /* sform_code */
+    memcpy(f.header + 280, rows, sizeof rows);
+    write_file("no-ending", &f, sizeof f);
+    ang_load_report report;
+    ang_volume *v = load(FOLDER "/no-ending", &report);
+    assert_true(v->slope > 0);
+    for (int i = 0; i < 12; i++) assert_float_equal(hu_at(v, i % 2, i / 2 % 3, i / 6), -2 * (i - 5) + 10, 1e-6);
+    double expected[3][4] = {{0.5, 0, 0, -7}, {0, -0.75, -0.1, -8}, {0, 0, 2, 9}}; /* RAS to LPS */
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 4; c++) assert_float_equal(v->affine.m[r][c], expected[r][c], 1e-6);
+    }
+    assert_int_equal(report.signed_stored, true);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+
+    write_file("short.nii", &f, 352 + 10);
+    must_fail(FOLDER "/short.nii", ANG_INPUT, "short.nii");
+    int16_t huge[8] = {3, 32767, 32767, 32767, 1, 1, 1, 1};
+    nifti_header(f.header, huge, 4, 16);
+    write_file("huge.nii", &f, sizeof f);
+    must_fail(FOLDER "/huge.nii", ANG_INPUT, "huge.nii");
+    nifti_header(f.header, dim, 128, 24);
+    write_file("rgb.nii", &f, sizeof f);
+    must_fail(FOLDER "/rgb.nii", ANG_INPUT, "data type 128");
+}
+
+#endif
+
+/* ---- real data ---- */
+
+static void same_values(const char *a, const char *b) {
+    ang_load_report left, right;
+    ang_volume *v = load(a, &left), *w = load(b, &right);
+    assert_memory_equal(v->dims, w->dims, sizeof v->dims);
+    assert_memory_equal(v->data, w->data, ang_volume_count(v) * sizeof *v->data);
+    assert_int_equal(left.stored_crc32, right.stored_crc32);
+    assert_float_equal(v->slope, w->slope, 0);
+    assert_float_equal(v->intercept, w->intercept, 0);
+    ang_volume_free(v);
+    ang_volume_free(w);
+    ang_load_report_clear(&left);
+    ang_load_report_clear(&right);
+}
+
+static void test_lossless_twins(void **state) {
+    (void)state;
+    if (!have_data()) skip();
+#define T ANG_SHARED_DATA "/transfer-syntaxes/CTImage.dcm"
+    static const char *const syntaxes[] = {
+        "_BigEndianExplicitTransferSyntax_1.2.840.10008.1.2.2.dcm",
+        "_DeflatedExplicitVRLittleEndianTransferSyntax_1.2.840.10008.1.2.1.99.dcm",
+        "_LittleEndianExplicitTransferSyntax_1.2.840.10008.1.2.1.dcm",
+        "_LittleEndianImplicitTransferSyntax_1.2.840.10008.1.2.dcm",
+        "_RLELosslessTransferSyntax_1.2.840.10008.1.2.5.dcm",
+#ifdef ANG_WITH_GDCM
+        "_JPEG2000LosslessOnlyTransferSyntax_1.2.840.10008.1.2.4.90.dcm",
+        "_JPEGLSLosslessTransferSyntax_1.2.840.10008.1.2.4.80.dcm",
+        "_JPEGProcess14SV1TransferSyntax_1.2.840.10008.1.2.4.70.dcm",
+        "_JPEGProcess14TransferSyntax_1.2.840.10008.1.2.4.57.dcm",
+#endif
+    };
+    for (size_t i = 0; i < sizeof syntaxes / sizeof *syntaxes; i++) {
+        char path[512];
+        snprintf(path, sizeof path, T "%s", syntaxes[i]);
+        same_values(T, path);
+    }
+#define N ANG_SHARED_DATA "/nema-ct/"
+    same_values(N "CT1_UNC", N "CT1_RLE");
+    same_values(N "CT2_UNC", N "CT2_RLE");
+    same_values(ANG_SHARED_DATA "/odd-dicom/MR_small.dcm", ANG_SHARED_DATA "/odd-dicom/MR_small_RLE.dcm");
+    same_values(ANG_SHARED_DATA "/odd-dicom/MR_small.dcm", ANG_SHARED_DATA "/odd-dicom/MR_small_bigendian.dcm");
+    same_values(ANG_SHARED_DATA "/odd-dicom/MR_small.dcm", ANG_SHARED_DATA "/odd-dicom/MR_small_implicit.dcm");
+#ifdef ANG_WITH_GDCM
+    same_values(N "CT1_UNC", N "CT1_J2KR");
+    same_values(N "CT1_UNC", N "CT1_JLSL");
+    same_values(N "CT1_UNC", N "CT1_JPLL");
+    same_values(N "CT2_UNC", N "CT2_J2KR");
+    same_values(N "CT2_UNC", N "CT2_JLSL");
+    same_values(N "CT2_UNC", N "CT2_JPLL");
+    same_values(ANG_SHARED_DATA "/odd-dicom/693_UNCR.dcm", ANG_SHARED_DATA "/odd-dicom/693_J2KR.dcm");
+    same_values(ANG_SHARED_DATA "/odd-dicom/MR_small.dcm", ANG_SHARED_DATA "/odd-dicom/MR_small_jp2klossless.dcm");
+    same_values(ANG_SHARED_DATA "/odd-dicom/MR_small.dcm", ANG_SHARED_DATA "/odd-dicom/MR_small_jpeg_ls_lossless.dcm");
+#endif
+}
+
+static void try_all(const char *folder, int *read, int *refused) {
+    DIR *directory = opendir(folder);
+    assert_non_null(directory);
+    for (struct dirent *entry; (entry = readdir(directory));) {
+        if (entry->d_name[0] == '.') continue;
+        char path[1024];
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        ang_load_report report;
+        ang_error err = {0};
+        ang_volume *v = ang_load(path, NULL, &report, NULL, &err);
+        if (!v) {
+            assert_true(err.code == ANG_INPUT || err.code == ANG_GEOMETRY);
+            assert_true(strlen(err.message) > 10);
+        }
+        v ? ++*read : ++*refused;
+        ang_volume_free(v);
+        ang_load_report_clear(&report);
+        struct stat status;
+        if (stat(path, &status) == 0 && S_ISDIR(status.st_mode)) try_all(path, read, refused);
+    }
+    closedir(directory);
+}
+
+static void test_odd_dicom(void **state) {
+    (void)state;
+    if (!have_data()) skip();
+    int read = 0, refused = 0;
+    try_all(ANG_SHARED_DATA "/odd-dicom", &read, &refused);
+    print_message("odd-dicom: %d read, %d refused\n", read, refused);
+    assert_true(read > 20 && refused > 20);
+    must_fail(ANG_SHARED_DATA "/odd-dicom/MR_truncated.dcm", ANG_INPUT, "MR_truncated.dcm: (7FE0,0010)");
+    must_fail(ANG_SHARED_DATA "/odd-dicom/eCT_Supplemental.dcm", ANG_INPUT, "multi-frame");
+    must_fail(ANG_SHARED_DATA "/odd-dicom/emri_small.dcm", ANG_INPUT, "multi-frame");
+    must_fail(ANG_SHARED_DATA "/odd-dicom/dicomdirtests/DICOMDIR", ANG_INPUT, "DICOMDIR");
+}
+
+static void test_chest(void **state) {
+    (void)state;
+    if (!have_data()) skip();
+    ang_load_report report;
+    ang_volume *v = load(ANG_SHARED_DATA "/chest-contrast-ct", &report);
+    int dims[3] = {512, 512, 133};
+    assert_memory_equal(v->dims, dims, sizeof dims);
+    assert_float_equal(ang_volume_spacing(v, 0), 0.703125, 1e-9);
+    assert_float_equal(ang_volume_spacing(v, 2), 2.5, 1e-9);
+    assert_false(report.padding_declared); /* 63536 occurs nowhere */
+    assert_true(report.padding_found);
+    assert_float_equal(report.padding_hu, -2048, 0);
+    assert_true(v->padding_count > 0.2 * (double)ang_volume_count(v));
+    assert_true(v->padding_count < 0.23 * (double)ang_volume_count(v));
+    assert_float_equal(ang_volume_hu(v, v->minimum), -1024, 0);
+    assert_int_equal(report.gap_count, 0);
+    assert_int_equal(report.warnings.count, 0);
+    assert_true(report.signed_stored);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+static void test_tilted_head(void **state) {
+    (void)state;
+    if (!have_data()) skip();
+    ang_load_report report;
+    ang_volume *v = load(ANG_SHARED_DATA "/head-ct-tilted-irregular", &report);
+    /* By hand from the files: the table moves along z only, columns run along (0, 0.9483237, -0.3173047). The normal is
+     * (0, 0.3173047, 0.9483237), so the angle between it and z is atan(0.3173047 / 0.9483237) = 18.5000 degrees. */
+    assert_float_equal(report.tilt_deg, atan2(0.3173047, 0.9483237) * 180 / acos(-1), 0.01);
+    assert_float_equal(report.tilt_nominal_deg, 18.5, 1e-9);
+    assert_int_equal(report.slices_read, 28);
+    assert_int_equal(report.series_count, 1);
+    assert_true(report.resampled);
+    double cosine = 0.9483237 / hypot(0.3173047, 0.9483237);
+    /* 4.22 mm of table 13 times, then once 1.14, then 7.38: the median is the first */
+    assert_float_equal(report.slice_gap_median_mm, 4.22 * cosine, 1e-5);
+    assert_int_equal(report.gap_count, 14);
+    for (size_t i = 0; i < report.gap_count; i++) {
+        assert_int_equal(report.gaps[i].after, 13 + (int)i);
+        assert_int_equal(report.gaps[i].missing, 0);
+        assert_float_equal(report.gaps[i].mm, ((i == 0 ? 1.14 : 7.38) * cosine), 1e-5);
+    }
+    ang_vec3 z = ang_mat4_column(&v->affine, 2);
+    assert_float_equal(z.x, 0, 1e-9);
+    assert_float_equal(z.y, 0, 1e-9); /* sheared: along the table, not along the normal */
+    assert_float_equal(z.z, 1.14, 1e-5);
+    assert_true(report.padding_declared);
+    assert_float_equal(report.padding_hu, -1500, 0);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+static void test_phantom_study(void **state) {
+    (void)state;
+    if (!have_data()) skip();
+    ang_load_report report;
+    ang_volume *v = load(ANG_SHARED_DATA "/phantom-study", &report);
+    int dims[3] = {512, 512, 28};
+    assert_memory_equal(v->dims, dims, sizeof dims);
+    const ang_series_info *chosen = &report.series[report.chosen];
+    assert_int_equal(chosen->slices, 28);
+    bool localizer = false, summary = false;
+    for (size_t i = 0; i < report.series_count; i++) {
+        localizer = localizer || (!report.series[i].loadable && strstr(report.series[i].remark, "localizer"));
+        summary = summary || (!report.series[i].loadable && strstr(report.series[i].remark, "derived summary"));
+    }
+    assert_true(localizer);
+    assert_true(summary);
+    assert_int_equal(report.warnings.count, 0);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+/* ---- dcm2niix ---- */
+
+typedef struct nifti {
+    int dim[3], type;
+    double slope, inter, srow[3][4];
+    uint8_t *bytes, *voxels;
+} nifti;
+
+static nifti read_nifti(const char *path) {
+    nifti n = {0};
+    FILE *in = fopen(path, "rb");
+    assert_non_null(in);
+    fseek(in, 0, SEEK_END);
+    size_t size = (size_t)ftell(in);
+    rewind(in);
+    n.bytes = malloc(size);
+    assert_int_equal(fread(n.bytes, 1, size, in), size);
+    fclose(in);
+    int16_t dim[8], type;
+    float offset, slope, inter, srow[12];
+    memcpy(dim, n.bytes + 40, sizeof dim);
+    memcpy(&type, n.bytes + 70, 2);
+    memcpy(&offset, n.bytes + 108, 4);
+    memcpy(&slope, n.bytes + 112, 4);
+    memcpy(&inter, n.bytes + 116, 4);
+    memcpy(srow, n.bytes + 280, sizeof srow);
+    for (int i = 0; i < 3; i++) n.dim[i] = dim[i + 1];
+    n.type = type;
+    n.slope = slope != 0 ? (double)slope : 1;
+    n.inter = slope != 0 ? (double)inter : 0;
+    for (int i = 0; i < 12; i++) n.srow[i / 4][i % 4] = (double)srow[i];
+    n.voxels = n.bytes + (size_t)offset;
+    return n;
+}
+
+static double nifti_hu(const nifti *n, size_t index) {
+    int16_t value;
+    memcpy(&value, n->voxels + 2 * index, 2);
+    double stored = n->type == 512 ? (double)(uint16_t)value : (double)value;
+    return n->slope * stored + n->inter;
+}
+
+static void compare_dcm2niix(const char *folder, const char *series) {
+    fresh_folder();
+    char command[1024];
+    snprintf(command, sizeof command, "dcm2niix -z n -b n -f out%%s -o '" FOLDER "' '%s' > '" FOLDER "/log' 2>&1",
+             folder);
+    assert_int_equal(system(command), 0);
+    char path[512];
+    snprintf(path, sizeof path, FOLDER "/out%s.nii", series);
+    nifti n = read_nifti(path);
+    ang_load_report report;
+    ang_volume *v = load(folder, &report);
+    assert_true(n.type == 4 || n.type == 512);
+    for (int i = 0; i < 3; i++) assert_int_equal(n.dim[i], v->dims[i]);
+    /* dcm2niix turns the rows over: its row j is ours height - 1 - j. Same points in the patient, RAS against LPS. */
+    for (int corner = 0; corner < 8; corner++) {
+        int x = corner & 1 ? v->dims[0] - 1 : 0, y = corner & 2 ? v->dims[1] - 1 : 0,
+            z = corner & 4 ? v->dims[2] - 1 : 0;
+        ang_vec3 p = ang_mat4_point(&v->affine, (ang_vec3){x, y, z});
+        double q[3], ours[3] = {-p.x, -p.y, p.z};
+        for (int r = 0; r < 3; r++)
+            q[r] = n.srow[r][0] * x + n.srow[r][1] * (v->dims[1] - 1 - y) + n.srow[r][2] * z + n.srow[r][3];
+        for (int r = 0; r < 3; r++) assert_float_equal(q[r], ours[r], 2e-3);
+    }
+    size_t index = 0, wrong = 0;
+    for (int z = 0; z < v->dims[2]; z++) {
+        for (int y = 0; y < v->dims[1]; y++) {
+            for (int x = 0; x < v->dims[0]; x++, index++) {
+                size_t theirs =
+                    ((size_t)z * (size_t)v->dims[1] + (size_t)(v->dims[1] - 1 - y)) * (size_t)v->dims[0] + (size_t)x;
+                double hu = ang_volume_is_padding(v, index) ? report.padding_hu : ang_volume_hu(v, v->data[index]);
+                wrong += hu != nifti_hu(&n, theirs);
+            }
+        }
+    }
+    assert_int_equal(wrong, 0);
+    free(n.bytes);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+static void test_dcm2niix(void **state) {
+    (void)state;
+    if (!have_data()) skip();
+    if (system("dcm2niix -h > /dev/null 2>&1") != 0) {
+        print_message("skipped: dcm2niix is not installed\n");
+        skip();
+    }
+    compare_dcm2niix(ANG_SHARED_DATA "/chest-contrast-ct", "3000566");
+    compare_dcm2niix(ANG_SHARED_DATA "/phantom-study", "201");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_small_series),
+        cmocka_unit_test(test_broken_slices_are_missing),
+        cmocka_unit_test(test_clear_errors),
+        cmocka_unit_test(test_rescale_by_slice),
+        cmocka_unit_test(test_declared_padding),
+        cmocka_unit_test(test_interrupt),
+        cmocka_unit_test(test_raw),
+#ifdef ANG_WITH_NIFTI
+        cmocka_unit_test(test_nifti),
+#endif
+        cmocka_unit_test(test_lossless_twins),
+        cmocka_unit_test(test_odd_dicom),
+        cmocka_unit_test(test_chest),
+        cmocka_unit_test(test_tilted_head),
+        cmocka_unit_test(test_phantom_study),
+        cmocka_unit_test(test_dcm2niix),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
