@@ -13,6 +13,8 @@ vec4 march(Ray ray, out float samples) {
         vec4 medium;
         vec3 coordinate;
         float piece;
+        // Software GL runs both sides of every branch but leaves a loop when all its pixels have: the inner loop spares
+        // it the shading of what is invisible.
         do {
             piece = lattice_length(i, count, reach);
             coordinate = start + lattice_place(i, piece) * along;

@@ -4,6 +4,7 @@
 #include "io/dicom/codec.h"
 #include "io/dicom/parse.h"
 #include "io/dicom/stored.h"
+#include "io/dicom/stream.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -14,10 +15,6 @@
 
 static uint32_t little32(const uint8_t *p) {
     return (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
-}
-
-static uint32_t big32(const uint8_t *p) {
-    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
 static bool read_all(int fd, void *out, size_t length, uint64_t offset) {
@@ -41,7 +38,8 @@ bool ang_dicom_rle(const uint8_t *stream, size_t length, size_t count, int bytes
         uint8_t *to = out + (bytes - 1 - segment); /* the most significant byte comes first (G.2) */
         while (done < count) {
             if (p >= stop) return false;
-            int control = (int8_t)*p++;
+            int control = *p < 128 ? *p : *p - 256;
+            p++;
             if (control >= 0) {
                 size_t run = (size_t)control + 1;
                 if ((size_t)(stop - p) < run) return false;
@@ -56,56 +54,6 @@ bool ang_dicom_rle(const uint8_t *stream, size_t length, size_t count, int bytes
         }
     }
     return true;
-}
-
-/* SIZ of JPEG 2000 (ISO 15444-1 A.5.1), which follows SOC. */
-static bool read_siz(const uint8_t *p, size_t length, ang_dicom_stream *out) {
-    if (length < 44 || p[0] != 0xFF || p[1] != 0x4F || p[2] != 0xFF || p[3] != 0x51) return false;
-    uint32_t width = big32(p + 8), height = big32(p + 12), left = big32(p + 16), top = big32(p + 20);
-    if (width <= left || height <= top || width - left > 65535 || height - top > 65535) return false;
-    *out = (ang_dicom_stream){.columns = (int)(width - left),
-                              .rows = (int)(height - top),
-                              .components = p[40] << 8 | p[41],
-                              .precision = (p[42] & 0x7F) + 1,
-                              .is_signed = p[42] >> 7,
-                              .jpeg2000 = true};
-    return true;
-}
-
-bool ang_dicom_stream_header(const uint8_t *stream, size_t length, ang_dicom_stream *out) {
-    if (length < 12) return false;
-    if (read_siz(stream, length, out)) return true;
-    if (memcmp(stream + 4, "jP  ", 4) == 0) { /* boxes of a JP2 file around the code stream, against PS3.5 A.4.4 */
-        for (size_t at = 0; length - at >= 8;) {
-            size_t box = big32(stream + at);
-            if (memcmp(stream + at + 4, "jp2c", 4) == 0) return read_siz(stream + at + 8, length - at - 8, out);
-            if (box < 8 || box > length - at) return false;
-            at += box;
-        }
-        return false;
-    }
-    if (stream[0] != 0xFF || stream[1] != 0xD8) return false;
-    for (size_t at = 2; length - at >= 12;) { /* ISO 10918-1 B.1.1.3: markers until a start of frame */
-        if (stream[at] != 0xFF) return false;
-        int marker = stream[at + 1];
-        if (marker == 0xFF) {
-            at++;
-            continue;
-        }
-        bool frame = (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC) ||
-                     marker == 0xF7; /* JPEG-LS, ISO 14495-1 */
-        if (frame) {
-            *out = (ang_dicom_stream){.precision = stream[at + 4],
-                                      .rows = stream[at + 5] << 8 | stream[at + 6],
-                                      .columns = stream[at + 7] << 8 | stream[at + 8],
-                                      .components = stream[at + 9]};
-            return true;
-        }
-        size_t size = (size_t)(stream[at + 2] << 8 | stream[at + 3]);
-        if (size < 2 || size + 2 > length - at) return false;
-        at += 2 + size;
-    }
-    return false;
 }
 
 /* The fragments of the only frame, joined (PS3.5 annex A.4); the basic offset table comes first and is not needed. */
@@ -172,6 +120,8 @@ static bool decode_stream(const uint8_t *stream, size_t length, const ang_dicom_
     if (header.precision < 1 || header.precision > 16)
         return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData has %d bits a pixel", label, header.precision);
 
+    if (!ang_dicom_stream_sound(stream, length))
+        return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData: its JPEG stream is damaged or cut off", label);
     ang_codec_frame frame = {slice->transfer_syntax, slice->columns, slice->rows, header.precision, header.is_signed};
     ang_dicom_words words = ang_dicom_words_of(slice);
     words.bytes = header.precision <= 8 ? 1 : 2;

@@ -14,15 +14,4 @@ bool ang_dicom_decode(const char *path, const char *label, const ang_dicom_slice
  * the stream is damaged or too short. */
 bool ang_dicom_rle(const uint8_t *stream, size_t length, size_t count, int bytes, uint8_t *out);
 
-/* What a JPEG, JPEG-LS or JPEG 2000 stream says of itself. */
-typedef struct ang_dicom_stream {
-    int columns, rows, components;
-    int precision; /* bits */
-    bool is_signed;
-    bool jpeg2000;
-} ang_dicom_stream;
-
-/* Reads the stream's own header; false where there is none. */
-bool ang_dicom_stream_header(const uint8_t *stream, size_t length, ang_dicom_stream *out);
-
 #endif

@@ -1,6 +1,6 @@
 #include "io/dicom/header.h"
 
-#include "io/dicom/decode.h"
+#include "io/dicom/stream.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,14 +18,16 @@ typedef struct seen {
 } seen;
 
 void ang_dicom_value(const char *values, int index, char *out, size_t size) {
-    for (; index > 0 && values; index--) {
+    out[0] = 0;
+    for (; index > 0; index--) {
         values = strchr(values, '\\');
-        if (values) values++;
+        if (!values) return;
+        values++;
     }
-    size_t length = values ? strcspn(values, "\\") : 0;
+    size_t length = strcspn(values, "\\");
     while (length && values[length - 1] == ' ') length--;
     if (length >= size) length = size - 1;
-    if (length) memcpy(out, values, length);
+    memcpy(out, values, length);
     out[length] = 0;
 }
 

@@ -46,7 +46,7 @@ static bool is_vr(const uint8_t *p) { return p[0] >= 'A' && p[0] <= 'Z' && p[1] 
 
 static bool one_of(const uint8_t *vr, const char *list) {
     for (; *list; list += 2) {
-        if (vr[0] == list[0] && vr[1] == list[1]) return true;
+        if (memcmp(vr, list, 2) == 0) return true;
     }
     return false;
 }
@@ -323,11 +323,8 @@ ang_dicom_found ang_dicom_open(ang_dicom_reader *reader, const char *path, const
         reader->next = 0;
     }
     bool big = strcmp(syntax, "1.2.840.10008.1.2.2") == 0, implicit = strcmp(syntax, "1.2.840.10008.1.2") == 0;
-    if (syntax[0] && plausible(reader, reader->next, !implicit, big)) {
-        reader->is_explicit = !implicit;
-        reader->big_endian = big;
-    } else if (!guess_coding(reader)) {
-        /* An odd first element decides nothing: what the transfer syntax says stands. */
+    /* Where neither the transfer syntax nor a guess fits an odd first element, what the syntax says stands. */
+    if ((syntax[0] && plausible(reader, reader->next, !implicit, big)) || !guess_coding(reader)) {
         reader->is_explicit = !implicit;
         reader->big_endian = big;
     }

@@ -30,32 +30,28 @@ typedef struct ang_dicom_slice {
     char photometric[17];
     char stack_id[17];
     char acquisition_time[41], content_time[41]; /* date and time, or only one of them */
-    bool has_series_number, has_instance_number, has_acquisition_number, has_temporal_position;
+    bool has_series_number, has_instance_number, has_acquisition_number, has_temporal_position, has_window;
     int series_number, instance_number, acquisition_number, temporal_position;
 
     int rows, columns, samples, frames;
     int bits_allocated, bits_stored, high_bit;
-    bool is_signed;
+    ang_dicom_coding coding;
+    bool is_signed, lossy;
 
-    bool has_position, has_orientation, has_spacing, has_thickness, has_slice_distance;
+    bool has_position, has_orientation, has_spacing, has_thickness, has_slice_distance, has_tilt;
     ang_vec3 position;     /* mm, LPS: centre of the first voxel */
     ang_vec3 row, column;  /* direction of rising column index, of rising row index */
     double row_spacing;    /* mm between rows (dy): the first value of PixelSpacing */
     double column_spacing; /* mm between columns (dx): the second */
     double thickness;      /* mm, nominal: only where positions are missing */
     double slice_distance; /* SpacingBetweenSlices, mm, nominal: only where positions are missing */
-    bool has_tilt;
-    double tilt; /* (0018,1120) in degrees, nominal */
+    double tilt;           /* (0018,1120) in degrees, nominal */
 
-    bool has_slope, has_intercept;
-    double slope, intercept; /* as in the file; 0 where absent */
-    bool has_padding, has_padding_limit;
-    uint16_t padding, padding_limit; /* the two bytes as they are: the VR lies (rule 10) */
-    bool has_window;
+    bool has_slope, has_intercept, has_padding, has_padding_limit;
+    uint16_t padding, padding_limit;    /* the two bytes as they are: the VR lies (rule 10) */
+    double slope, intercept;            /* as in the file; 0 where absent */
     double window_centre, window_width; /* the first values */
-    bool lossy;
 
-    ang_dicom_coding coding;
     uint64_t pixel_offset; /* bytes from the file's start (from the data set's start where deflated) to the pixel value
                               or, encapsulated, to the basic offset table's item */
     uint64_t pixel_length; /* bytes; to the end of the file where encapsulated */

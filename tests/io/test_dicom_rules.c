@@ -12,6 +12,7 @@
 #include "io/dicom/mask.h"
 #include "io/dicom/series.h"
 #include "io/dicom/stored.h"
+#include "io/dicom/stream.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -450,7 +451,7 @@ static void test_masks(void **state) {
         uint16_t low = 65535, high = 0;
         for (int i = 0; i < count; i++) {
             bool is = copy[i] >= 20 && copy[i] <= 60;
-            size_t bit = (size_t)(i + offset);
+            size_t bit = (size_t)i + (size_t)offset;
             assert_int_equal(mask[bit / 64] >> (bit % 64) & 1, is);
             assert_int_equal(data[i], is ? 7 : copy[i]);
             expected += is;
@@ -482,6 +483,25 @@ static void test_rle(void **state) {
     assert_false(ang_dicom_rle(stream, 10, 5, 2, out));
     stream[8] = 200;
     assert_false(ang_dicom_rle(stream, sizeof stream, 5, 2, out));
+}
+
+static void test_stream_markers(void **state) {
+    (void)state;
+    uint8_t jpeg[] = {0xFF, 0xD8, 0xFF, 0xC3, 0, 11, 16, 2, 0, 1, 0,    1, 1, 0x11, 0,    0xFF, 0xDA,
+                      0,    8,    1,    1,    0, 1,  0,  0, 7, 9, 0xFF, 0, 1, 0xFF, 0xD9, 0};
+    ang_dicom_stream header;
+    assert_true(ang_dicom_stream_header(jpeg, sizeof jpeg, &header));
+    assert_int_equal(header.rows, 512);
+    assert_int_equal(header.columns, 256);
+    assert_int_equal(header.precision, 16);
+    assert_int_equal(header.components, 1);
+    assert_true(ang_dicom_stream_sound(jpeg, sizeof jpeg));
+    assert_false(ang_dicom_stream_sound(jpeg, sizeof jpeg - 2)); /* no end */
+    jpeg[15] = 0xEF;
+    assert_false(ang_dicom_stream_sound(jpeg, sizeof jpeg)); /* no scan */
+    jpeg[15] = 0xFF;
+    jpeg[28] = 0xC4;
+    assert_false(ang_dicom_stream_sound(jpeg, sizeof jpeg)); /* a marker in the data */
 }
 
 static void test_checksum(void **state) {
@@ -528,6 +548,7 @@ int main(void) {
         cmocka_unit_test(test_rescale),
         cmocka_unit_test(test_masks),
         cmocka_unit_test(test_rle),
+        cmocka_unit_test(test_stream_markers),
         cmocka_unit_test(test_checksum),
         cmocka_unit_test(test_image_type_values),
     };
