@@ -2,6 +2,7 @@
 #include "app/verbs.h"
 #include "core/error/metrics.h"
 #include "io/image/image_io.h"
+#include "io/json.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -15,21 +16,14 @@ static bool is_float(const char *path) {
     return dot && (strcasecmp(dot, ".exr") == 0 || strcasecmp(dot, ".pfm") == 0);
 }
 
-static void add_number(cJSON *object, const char *name, double value) {
-    if (isfinite(value))
-        cJSON_AddNumberToObject(object, name, value);
-    else
-        cJSON_AddNullToObject(object, name);
-}
-
 static void print_json(const ang_metrics *metrics) {
     cJSON *root = cJSON_CreateObject();
-    add_number(root, "max", metrics->max);
-    add_number(root, "rms", metrics->rms);
-    add_number(root, "p999", metrics->p999);
-    add_number(root, "flipped", metrics->flipped);
-    add_number(root, "psnr", metrics->psnr);
-    add_number(root, "ssim", metrics->ssim);
+    ang_json_add_number(root, "max", metrics->max);
+    ang_json_add_number(root, "rms", metrics->rms);
+    ang_json_add_number(root, "p999", metrics->p999);
+    ang_json_add_number(root, "flipped", metrics->flipped);
+    ang_json_add_number(root, "psnr", metrics->psnr);
+    ang_json_add_number(root, "ssim", metrics->ssim);
     char *text = cJSON_PrintUnformatted(root);
     puts(text ? text : "null");
     free(text);

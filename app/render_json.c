@@ -1,5 +1,6 @@
 #include "app/render_json.h"
 
+#include "io/json.h"
 #include "io/replace.h"
 #include "io/report.h"
 
@@ -20,13 +21,6 @@ void ang_render_summary_times(ang_render_summary *summary, double *milliseconds,
     summary->min_ms = milliseconds[0];
     summary->max_ms = milliseconds[count - 1];
     summary->median_ms = 0.5 * (milliseconds[(count - 1) / 2] + milliseconds[count / 2]);
-}
-
-static void add_number(cJSON *object, const char *name, double value) {
-    if (isfinite(value))
-        cJSON_AddNumberToObject(object, name, value);
-    else
-        cJSON_AddNullToObject(object, name);
 }
 
 static void add_left_out(cJSON *list, const char *what, const char *why) {
@@ -80,28 +74,30 @@ static cJSON *error_json(const ang_volume *volume, const ang_picture *picture, c
     const ang_scene *scene = &picture->scene;
     bool truth = strcmp(method->name, "reference") == 0;
     /* The step's error is not estimated yet: null, not zero. */
-    add_number(error, "estimate", truth ? 0 : NAN);
-    add_number(error, "bound", truth ? 0 : NAN);
-    add_number(error, "step_mm", truth ? NAN : picture->render.step_voxels * ang_volume_smallest_spacing(volume));
+    ang_json_add_number(error, "estimate", truth ? 0 : NAN);
+    ang_json_add_number(error, "bound", truth ? 0 : NAN);
+    ang_json_add_number(error, "step_mm",
+                        truth ? NAN : picture->render.step_voxels * ang_volume_smallest_spacing(volume));
     bool terminated = !truth && scene->mode == ANG_MODE_DVR;
     /* numerics.md: |dC| <= (1 - a) max c, in levels; shading adds at most its specular part. */
     double brightest = scene->shading == ANG_SHADING_PHONG
                            ? fmax(1, scene->phong.ambient + scene->phong.diffuse + scene->phong.specular)
                            : 1;
-    add_number(error, "termination_bound", terminated ? 255 * brightest * (1 - picture->render.termination) : 0);
+    ang_json_add_number(error, "termination_bound",
+                        terminated ? 255 * brightest * (1 - picture->render.termination) : 0);
     return error;
 }
 
 static cJSON *time_json(const ang_render_summary *summary) {
     cJSON *time = cJSON_CreateObject();
-    add_number(time, "load", summary->load_ms);
-    add_number(time, "octree", NAN);
-    add_number(time, "upload", summary->upload_ms);
-    add_number(time, "first_frame", summary->first_frame_ms);
+    ang_json_add_number(time, "load", summary->load_ms);
+    ang_json_add_number(time, "octree", NAN);
+    ang_json_add_number(time, "upload", summary->upload_ms);
+    ang_json_add_number(time, "first_frame", summary->first_frame_ms);
     bool timed = summary->timed_frames > 0;
-    add_number(time, "frame_median", timed ? summary->median_ms : NAN);
-    add_number(time, "frame_min", timed ? summary->min_ms : NAN);
-    add_number(time, "frame_max", timed ? summary->max_ms : NAN);
+    ang_json_add_number(time, "frame_median", timed ? summary->median_ms : NAN);
+    ang_json_add_number(time, "frame_min", timed ? summary->min_ms : NAN);
+    ang_json_add_number(time, "frame_max", timed ? summary->max_ms : NAN);
     cJSON_AddNumberToObject(time, "frames", summary->timed_frames);
     return time;
 }
@@ -116,10 +112,10 @@ bool ang_render_json_write(const char *path, const ang_volume *volume, const ang
     cJSON_AddItemToObject(root, "error", error_json(volume, picture, method));
     cJSON_AddItemToObject(root, "time_ms", time_json(summary));
     cJSON *counts = cJSON_AddObjectToObject(root, "counts");
-    add_number(counts, "samples", (double)summary->stats.samples);
+    ang_json_add_number(counts, "samples", (double)summary->stats.samples);
     cJSON_AddNumberToObject(counts, "bricks_drawn", 1);
     cJSON_AddNumberToObject(counts, "bricks_total", 1);
-    add_number(counts, "fragments", (double)summary->stats.fragments);
+    ang_json_add_number(counts, "fragments", (double)summary->stats.fragments);
     cJSON *warnings = cJSON_AddArrayToObject(root, "warnings");
     for (size_t i = 0; i < summary->warnings.count; i++)
         cJSON_AddItemToArray(warnings, cJSON_CreateString(summary->warnings.text[i]));

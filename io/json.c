@@ -243,3 +243,10 @@ const char *ang_nearest_word(const char *word, const char *const *known) {
     }
     return nearest;
 }
+
+void ang_json_add_number(cJSON *object, const char *name, double value) {
+    if (isfinite(value))
+        cJSON_AddNumberToObject(object, name, value);
+    else
+        cJSON_AddNullToObject(object, name);
+}

@@ -38,6 +38,9 @@ bool ang_json_check_fields(const ang_json *json, const cJSON *object, const char
 bool ang_json_number(const ang_json *json, const cJSON *item, const char *path, double low, double high, double *value,
                      ang_error *err);
 
+/* Adds a number under `name`, or null where it is not finite, which JSON cannot say. */
+void ang_json_add_number(cJSON *object, const char *name, double value);
+
 /* The entry of NULL-terminated `known` most like `word` by edit distance; NULL where none is similar. */
 const char *ang_nearest_word(const char *word, const char *const *known);
 

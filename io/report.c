@@ -1,5 +1,7 @@
 #include "io/report.h"
 
+#include "io/json.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -84,12 +86,19 @@ static void print_geometry(FILE *out, const ang_volume *volume, const ang_load_r
     }
 }
 
+/* The intercept for stored values as they are in the file: the volume holds signed ones with 32768 added. */
+static double file_intercept(const ang_volume *volume, const ang_load_report *report) {
+    return volume->intercept + (report->signed_stored ? 32768 * volume->slope : 0);
+}
+
 static void print_values(FILE *out, const ang_volume *volume, const ang_load_report *report) {
     fprintf(out, "Values\n");
     fprintf(out, "  range        %g to %g HU\n", ang_volume_hu(volume, volume->minimum),
             ang_volume_hu(volume, volume->maximum));
-    fprintf(out, "  HU           %.10g x stored %+.10g; %d bits, %s\n", volume->slope, volume->intercept,
-            report->bits_stored, report->signed_stored ? "signed (32768 added)" : "unsigned");
+    double intercept = file_intercept(volume, report);
+    fprintf(out, "  HU           = %.10g x stored %c %.10g; stored in %d bits, %s\n", volume->slope,
+            intercept < 0 ? '-' : '+', fabs(intercept), report->bits_stored,
+            report->signed_stored ? "signed" : "unsigned");
     if (volume->padding_count > 0)
         fprintf(out, "  padding      %g HU (%s), %.1f %% of the voxels, shown as -1000 HU\n", report->padding_hu,
                 report->padding_declared ? "declared" : "found in the corners",
@@ -115,13 +124,6 @@ void ang_load_report_print(FILE *out, const ang_volume *volume, const ang_load_r
     }
     print_notes(out, "Assumed", &report->assumptions, keep_phi);
     print_notes(out, "Warnings", &report->warnings, keep_phi);
-}
-
-static void add_number(cJSON *object, const char *name, double value) {
-    if (isfinite(value))
-        cJSON_AddNumberToObject(object, name, value);
-    else
-        cJSON_AddNullToObject(object, name);
 }
 
 static void add_numbers(cJSON *object, const char *name, const double *values, int count) {
@@ -164,20 +166,20 @@ static void add_geometry(cJSON *input, const ang_volume *volume, const ang_load_
     for (int axis = 0; axis < 3; axis++) spacing[axis] = ang_volume_spacing(volume, axis);
     cJSON_AddItemToObject(input, "dims", cJSON_CreateIntArray(volume->dims, 3));
     add_numbers(input, "spacing_mm", spacing, 3);
-    add_number(input, "tilt_deg", report->tilt_deg);
-    add_number(input, "tilt_nominal_deg", report->tilt_nominal_deg);
+    ang_json_add_number(input, "tilt_deg", report->tilt_deg);
+    ang_json_add_number(input, "tilt_nominal_deg", report->tilt_nominal_deg);
     cJSON *rows = cJSON_AddArrayToObject(input, "affine");
     for (int r = 0; r < 4; r++) cJSON_AddItemToArray(rows, cJSON_CreateDoubleArray(volume->affine.m[r], 4));
     double range[2] = {ang_volume_hu(volume, volume->minimum), ang_volume_hu(volume, volume->maximum)};
     add_numbers(input, "hu_range", range, 2);
     cJSON_AddNumberToObject(input, "slope", volume->slope);
-    cJSON_AddNumberToObject(input, "intercept", volume->intercept);
+    cJSON_AddNumberToObject(input, "intercept", file_intercept(volume, report));
     cJSON_AddNumberToObject(input, "stored_crc32", report->stored_crc32);
     cJSON *padding = cJSON_AddObjectToObject(input, "padding");
     bool any = volume->padding_count > 0;
     cJSON_AddBoolToObject(padding, "declared", report->padding_declared);
     cJSON_AddBoolToObject(padding, "found", report->padding_found);
-    add_number(padding, "hu", any ? report->padding_hu : NAN);
+    ang_json_add_number(padding, "hu", any ? report->padding_hu : NAN);
     cJSON_AddNumberToObject(padding, "voxels", (double)volume->padding_count);
 }
 
@@ -187,14 +189,14 @@ static void add_slices(cJSON *input, const ang_load_report *report) {
     cJSON_AddNumberToObject(input, "duplicates", report->slices_duplicate);
     cJSON_AddBoolToObject(input, "resampled", report->resampled);
     cJSON *distance = cJSON_AddObjectToObject(input, "slice_gap_mm");
-    add_number(distance, "median", report->slice_gap_median_mm);
-    add_number(distance, "min", report->slice_gap_min_mm);
-    add_number(distance, "max", report->slice_gap_max_mm);
+    ang_json_add_number(distance, "median", report->slice_gap_median_mm);
+    ang_json_add_number(distance, "min", report->slice_gap_min_mm);
+    ang_json_add_number(distance, "max", report->slice_gap_max_mm);
     cJSON *gaps = cJSON_AddArrayToObject(input, "gaps");
     for (size_t i = 0; i < report->gap_count; i++) {
         cJSON *gap = cJSON_CreateObject();
         cJSON_AddNumberToObject(gap, "after", report->gaps[i].after);
-        add_number(gap, "mm", report->gaps[i].mm);
+        ang_json_add_number(gap, "mm", report->gaps[i].mm);
         cJSON_AddNumberToObject(gap, "missing", report->gaps[i].missing);
         cJSON_AddItemToArray(gaps, gap);
     }
@@ -216,8 +218,8 @@ cJSON *ang_load_report_json(const ang_volume *volume, const ang_load_report *rep
     cJSON_AddNumberToObject(input, "quantisation_hu", report->quantisation_hu);
     cJSON_AddNumberToObject(input, "nan_count", (double)report->nan_count);
     cJSON_AddNumberToObject(input, "inf_count", (double)report->inf_count);
-    add_number(input, "window_centre", report->window_centre);
-    add_number(input, "window_width", report->window_width);
+    ang_json_add_number(input, "window_centre", report->window_centre);
+    ang_json_add_number(input, "window_width", report->window_width);
     add_notes(input, "assumptions", &report->assumptions, keep_phi);
     add_notes(input, "warnings", &report->warnings, keep_phi);
     return input;

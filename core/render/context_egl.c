@@ -110,14 +110,16 @@ static bool open_library(egl *state, ang_gl_attempts *attempts) {
 }
 
 static EGLContext make_context(egl *state, EGLConfig config, EGLint minor, bool egl_1_5) {
+    /* The value is EGL_TRUE for the one and EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR for the other: 1 for both. */
+    const EGLint debug = egl_1_5 ? EGL_CONTEXT_OPENGL_DEBUG : EGL_CONTEXT_FLAGS_KHR;
     const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                  4,
                                  EGL_CONTEXT_MINOR_VERSION,
                                  minor,
                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 egl_1_5 ? EGL_CONTEXT_OPENGL_DEBUG : EGL_CONTEXT_FLAGS_KHR,
-                                 egl_1_5 ? EGL_TRUE : EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR,
+                                 debug,
+                                 EGL_TRUE,
                                  EGL_NONE};
     return state->create_context(state->display, config, EGL_NO_CONTEXT, attributes);
 }

@@ -209,8 +209,8 @@ static ang_volume *load_folder(const ang_dicom_folder *folder, const char *path,
         return NULL;
     }
     if (folder->foreign > 0)
-        ang_notes_add(&report->assumptions, "%zu of %zu files are no DICOM images and were passed over",
-                      folder->foreign, folder->count);
+        ang_notes_add(&report->assumptions, "passed over what is no DICOM image: %zu of %zu files", folder->foreign,
+                      folder->count);
     ang_dicom_groups groups;
     if (!ang_dicom_group_slices(folder->slices, folder->slice_count, same_pixels, (void *)(uintptr_t)folder, &groups,
                                 err))
