@@ -68,6 +68,14 @@ static bool render_frame(session *run, double *milliseconds, ang_error *err) {
     return done && (!run->gl || ang_gl_check(run->gl, err));
 }
 
+static void note_step(session *run) {
+    double wanted = run->picture.render.step_voxels * ang_volume_smallest_spacing(run->volume);
+    if (run->summary.stats.step_mm > wanted * (1 + 1e-6))
+        ang_notes_add(&run->summary.warnings,
+                      "the step of %.3g mm is finer than method %s can go here: %.3g mm was used", wanted,
+                      run->method->name, run->summary.stats.step_mm);
+}
+
 static void turn_camera(session *run, double degrees) {
     ang_view view = run->picture.view;
     view.azimuth_deg += degrees;
@@ -100,6 +108,7 @@ static bool render_all(session *run, ang_error *err) {
         turn_camera(run, options->orbit * frame / options->frames);
         if (!render_frame(run, &milliseconds, err)) return false;
         if (frame == 0) run->summary.first_frame_ms = milliseconds;
+        note_step(run);
         frame_path(options->output, frame, options->frames, path, sizeof path);
         if (!write_picture(run, path, err)) return false;
         if (!options->quiet && options->verbose) fprintf(stderr, "%s: %.0f ms\n", path, milliseconds);

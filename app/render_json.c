@@ -69,15 +69,14 @@ static cJSON *plan_json(const ang_volume *volume, const ang_picture *picture, co
     return plan;
 }
 
-static cJSON *error_json(const ang_volume *volume, const ang_picture *picture, const ang_method *method) {
+static cJSON *error_json(const ang_picture *picture, const ang_method *method, const ang_render_summary *summary) {
     cJSON *error = cJSON_CreateObject();
     const ang_scene *scene = &picture->scene;
     bool truth = strcmp(method->name, "reference") == 0;
     /* The step's error is not estimated yet: null, not zero. */
     ang_json_add_number(error, "estimate", truth ? 0 : NAN);
     ang_json_add_number(error, "bound", truth ? 0 : NAN);
-    ang_json_add_number(error, "step_mm",
-                        truth ? NAN : picture->render.step_voxels * ang_volume_smallest_spacing(volume));
+    ang_json_add_number(error, "step_mm", truth ? NAN : summary->stats.step_mm);
     bool terminated = !truth && scene->mode == ANG_MODE_DVR;
     /* numerics.md: |dC| <= (1 - a) max c, in levels; shading adds at most its specular part. */
     double brightest = scene->shading == ANG_SHADING_PHONG
@@ -109,7 +108,7 @@ bool ang_render_json_write(const char *path, const ang_volume *volume, const ang
     cJSON_AddStringToObject(root, "version", ANG_VERSION);
     cJSON_AddItemToObject(root, "input", ang_load_report_json(volume, report, keep_phi));
     cJSON_AddItemToObject(root, "plan", plan_json(volume, picture, method, summary));
-    cJSON_AddItemToObject(root, "error", error_json(volume, picture, method));
+    cJSON_AddItemToObject(root, "error", error_json(picture, method, summary));
     cJSON_AddItemToObject(root, "time_ms", time_json(summary));
     cJSON *counts = cJSON_AddObjectToObject(root, "counts");
     ang_json_add_number(counts, "samples", (double)summary->stats.samples);

@@ -22,6 +22,7 @@ extern const ang_render_options ang_render_options_default;
 typedef struct ang_frame_stats {
     uint64_t samples;   /* field evaluations along rays, shading left out */
     uint64_t fragments; /* rays or fragments shaded */
+    double step_mm;     /* sampling distance used, greater than asked for where the method has a limit; 0: exact */
 } ang_frame_stats;
 
 typedef struct ang_gl ang_gl;             /* core/render/context.h */

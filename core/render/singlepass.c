@@ -147,14 +147,18 @@ static GLuint prepare(ang_renderer *renderer, const ang_scene *scene, const ang_
     return ang_programs_get(&renderer->programs, "singlepass", &vertex, &fragment, err);
 }
 
+/* Millimetres between samples. */
+static double step_used(const ang_volume *volume, const ang_render_options *options) {
+    double wanted = options->step_voxels * ang_volume_smallest_spacing(volume);
+    return fmax(wanted, 2 * ang_volume_half_diagonal(volume) / most_samples);
+}
+
 static void set_uniforms(const ang_renderer *renderer, GLuint program, const ang_scene *scene,
                          const ang_render_options *options, const ang_ray_frame *frame) {
     const ang_volume *volume = renderer->volume;
     ang_uniforms_ray(program, frame);
     ang_uniforms_field(program, &renderer->field, volume, frame, UNIT_FIELD);
-    double step = options->step_voxels * ang_volume_smallest_spacing(volume);
-    step = fmax(step, 2 * ang_volume_half_diagonal(volume) / most_samples);
-    ang_uniform_float(program, "lattice_step", step);
+    ang_uniform_float(program, "lattice_step", step_used(volume, options));
     if (needs_table(scene)) ang_table_texture_bind(&renderer->table, program, UNIT_TABLE);
     if (needs_phong(scene)) ang_uniforms_phong(program, volume, scene, frame);
     if (!needs_table(scene)) ang_uniforms_window(program, volume, scene);
@@ -203,7 +207,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     if (!ang_ray_frame_make(renderer->volume, scene, &frame, err)) return false;
     GLuint program = prepare(renderer, scene, options, stats != NULL, err);
     if (!program) return false;
-    if (stats) *stats = (ang_frame_stats){0};
+    if (stats) *stats = (ang_frame_stats){.step_mm = step_used(renderer->volume, options)};
 
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer);
     glViewport(0, 0, renderer->target.width, renderer->target.height);
