@@ -17,9 +17,8 @@ enum {
     BAND_ROWS = 64, /* rows drawn at once: drivers stop draws that take seconds, and users want to */
 };
 
-/* llvmpipe leaves loops, without a word, after 65535 rounds of all loops of a shader together, and runs the two halves
- * of a block of pixels in one such count; so a ray takes at most
- * this many samples, with a step far below what float resolves. */
+/* llvmpipe leaves loops, without a word, after 65535 rounds of all loops of a shader together, and march_dvr takes up
+ * to two rounds a sample (its loops are nested); so a ray takes at most this many samples. */
 static const double most_samples = 32000;
 
 struct ang_renderer {
