@@ -4,7 +4,7 @@ PACKAGES := build-essential cmake ninja-build pkg-config python3 python3-glad zl
 	fonts-dejavu-core dicom3tools dcm2niix
 DEMO := demo
 
-.PHONY: all packages build demo test sanitize format clean
+.PHONY: all packages build demo test sanitize lint format clean
 
 all: build
 
@@ -26,6 +26,9 @@ sanitize: packages
 	@cmake --preset sanitize
 	@cmake --build --preset sanitize
 	@ctest --test-dir build-sanitize --output-on-failure --no-tests=error
+
+lint: build
+	@git ls-files 'app/*.c' 'core/*.c' 'io/*.c' 'core/*.cpp' 'io/*.cpp' | xargs clang-tidy -p build --quiet
 
 format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

@@ -53,8 +53,8 @@ static bool compare(const ang_options *options, ang_image *a, ang_image *b, ang_
     if (!ang_metrics_compute(a, b, quantised, &metrics, err)) return false;
     if (options->heat) {
         ang_image heat = {0};
-        bool done =
-            ang_metrics_heat(a, b, &heat, NULL, err) && ang_image_write(options->heat, &heat, opaque_black, err);
+        bool done = ang_metrics_heat(a, b, quantised, &heat, NULL, err) &&
+                    ang_image_write(options->heat, &heat, opaque_black, err);
         ang_image_clear(&heat);
         if (!done) return false;
     }

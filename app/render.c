@@ -60,10 +60,27 @@ static bool open_renderer(session *run, ang_error *err) {
     return run->renderer != NULL;
 }
 
-static bool render_frame(session *run, double *milliseconds, ang_error *err) {
+/* Progress over all frames from that within one. */
+typedef struct frame_progress {
+    const ang_progress *sink;
+    const char *what;
+    int frame, frames;
+} frame_progress;
+
+static bool update_frames(void *context, const char *what, double fraction) {
+    (void)what;
+    const frame_progress *progress = context;
+    return ang_progress_update(progress->sink, progress->what, (progress->frame + fraction) / progress->frames);
+}
+
+/* Counting samples costs time, so frames that are timed go without `stats`. */
+static bool render_frame(session *run, frame_progress *frames, ang_frame_stats *stats, double *milliseconds,
+                         ang_error *err) {
+    frames->sink = ang_app_progress_sink(run->progress);
+    ang_progress progress = {update_frames, frames};
     double start = ang_app_now_ms();
-    bool done = run->method->render(run->renderer, &run->picture.scene, &run->picture.render, &run->image,
-                                    &run->summary.stats, ang_app_progress_sink(run->progress), err);
+    bool done = run->method->render(run->renderer, &run->picture.scene, &run->picture.render, &run->image, stats,
+                                    &progress, err);
     *milliseconds = ang_app_now_ms() - start;
     return done && (!run->gl || ang_gl_check(run->gl, err));
 }
@@ -106,7 +123,8 @@ static bool render_all(session *run, ang_error *err) {
         char path[4096];
         double milliseconds;
         turn_camera(run, options->orbit * frame / options->frames);
-        if (!render_frame(run, &milliseconds, err)) return false;
+        frame_progress progress = {.what = "rendering", .frame = frame, .frames = options->frames};
+        if (!render_frame(run, &progress, &run->summary.stats, &milliseconds, err)) return false;
         if (frame == 0) run->summary.first_frame_ms = milliseconds;
         note_step(run);
         frame_path(options->output, frame, options->frames, path, sizeof path);
@@ -121,10 +139,13 @@ static bool time_frames(session *run, ang_error *err) {
     if (count < 1) return true;
     double *milliseconds = calloc((size_t)count, sizeof *milliseconds);
     if (!milliseconds) return ang_fail(err, ANG_LIMIT, "no memory for %d times", count);
-    bool done = true;
+    /* Without counting the shader is another one: one more frame warms that up. */
+    frame_progress warm_up = {.what = "warming up", .frames = 1};
+    bool done = render_frame(run, &warm_up, NULL, milliseconds, err);
     for (int frame = 0; frame < count && done; frame++) {
         turn_camera(run, run->options->orbit * frame / count);
-        done = render_frame(run, &milliseconds[frame], err);
+        frame_progress progress = {.what = "timing", .frame = frame, .frames = count};
+        done = render_frame(run, &progress, NULL, &milliseconds[frame], err);
     }
     if (done) ang_render_summary_times(&run->summary, milliseconds, count);
     free(milliseconds);

@@ -36,7 +36,6 @@ static cJSON *plan_json(const ang_volume *volume, const ang_picture *picture, co
     cJSON *plan = cJSON_CreateObject();
     cJSON_AddStringToObject(plan, "method", method->name);
     cJSON_AddStringToObject(plan, "mode", ang_mode_name(scene->mode));
-    cJSON_AddStringToObject(plan, "shading", ang_shading_name(scene->shading));
     cJSON_AddStringToObject(plan, "projection", ang_projection_name(scene->camera.projection));
     cJSON_AddStringToObject(plan, "preset", picture->preset->name);
     if (summary->gl_backend) {
@@ -46,6 +45,7 @@ static cJSON *plan_json(const ang_volume *volume, const ang_picture *picture, co
     }
     bool coloured = scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO;
     bool shaded = scene->mode == ANG_MODE_ISO || (scene->mode == ANG_MODE_DVR && scene->shading == ANG_SHADING_PHONG);
+    cJSON_AddStringToObject(plan, "shading", ang_shading_name(shaded ? ANG_SHADING_PHONG : ANG_SHADING_NONE));
     bool weighted = scene->mode == ANG_MODE_MEAN && volume->padding;
     cJSON *uses = cJSON_AddArrayToObject(plan, "uses");
     cJSON *left_out = cJSON_AddArrayToObject(plan, "left_out");

@@ -1,21 +1,24 @@
 // The mean by mm of what is not padding.
-uniform float mean_padding; // stored value of padding
-uniform float mean_empty;   // stored value (any) shown where there is only padding
+uniform float mean_base;  // stored value about which is summed: that of padding, where there is any
+uniform float mean_empty; // stored value (any) shown where there is only padding
 
 vec4 march(Ray ray, out float samples) {
     float reach = ray.leave - ray.enter;
     int count = lattice_count(reach);
     vec3 start = (ray.origin + ray.enter * ray.direction) * field_scale + field_offset;
     vec3 along = ray.direction * field_scale;
-    // About padding the share of padding drops out, and sums stay small.
-    float sum = 0.0;
-    float tissue = 0.0;
+    // x: about padding, the share of padding drops out; y: mm of tissue. Thousands of terms are summed: what a sum loses
+    // to rounding is kept in `lost` and added to the next term (Kahan).
+    vec2 sum = vec2(0.0);
+    precise vec2 lost = vec2(0.0);
     for (int i = 0; i < count; i++) {
         float piece = lattice_length(i, count, reach);
         vec3 coordinate = start + lattice_place(i, piece) * along;
-        sum += piece * (field_at(coordinate) - mean_padding);
-        tissue += piece * weight_at(coordinate);
+        precise vec2 term = piece * vec2(field_at(coordinate) - mean_base, weight_at(coordinate)) - lost;
+        precise vec2 next = sum + term;
+        lost = (next - sum) - term;
+        sum = next;
     }
     samples = float(count);
-    return window_grey(tissue > 0.0 ? mean_padding + sum / tissue : mean_empty);
+    return window_grey(sum.y > 0.0 ? mean_base + sum.x / sum.y : mean_empty);
 }

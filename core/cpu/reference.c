@@ -29,6 +29,7 @@ typedef struct stretch {
 } stretch;
 
 ang_reference *ang_reference_create(const ang_volume *volume, const ang_scene *scene, ang_error *err) {
+    if (!ang_scene_check(scene, err)) return NULL;
     ang_reference *reference = ang_alloc(1, sizeof *reference, "reference renderer", err);
     if (!reference) return NULL;
     reference->volume = volume;

@@ -11,7 +11,8 @@
 
 typedef struct ang_reference ang_reference;
 
-/* Borrows volume and scene, which must outlive it and not change. NULL with ANG_LIMIT, ANG_GEOMETRY. */
+/* Borrows volume and scene, which must outlive it and not change. NULL with ANG_USAGE
+ * (ang_scene_check), ANG_LIMIT, ANG_GEOMETRY. */
 ang_reference *ang_reference_create(const ang_volume *volume, const ang_scene *scene, ang_error *err);
 void ang_reference_free(ang_reference *reference);
 

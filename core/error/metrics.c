@@ -118,7 +118,8 @@ bool ang_metrics_compute(const ang_image *a, const ang_image *b, bool quantised,
     return similarity(a, b, quantised, &out->ssim, err);
 }
 
-bool ang_metrics_heat(const ang_image *a, const ang_image *b, ang_image *out, double *scale, ang_error *err) {
+bool ang_metrics_heat(const ang_image *a, const ang_image *b, bool quantised, ang_image *out, double *scale,
+                      ang_error *err) {
     *out = (ang_image){0};
 #ifdef ANG_WITH_OPENCV
     if (!same_size(a, b, err) || !ang_image_create(out, a->width, a->height, err)) return false;
@@ -127,7 +128,7 @@ bool ang_metrics_heat(const ang_image *a, const ang_image *b, ang_image *out, do
     unsigned char *rgb = values ? ang_alloc(3 * count, 1, "heat map", err) : NULL;
     bool good = rgb != NULL;
     if (good) {
-        differences(a, b, false, values);
+        differences(a, b, quantised, values);
         float largest = 0;
         for (size_t i = 0; i < count; i++) largest = fmaxf(largest, values[i]);
         for (size_t i = 0; i < count && largest > 0; i++) values[i] /= largest;
@@ -143,7 +144,7 @@ bool ang_metrics_heat(const ang_image *a, const ang_image *b, ang_image *out, do
     if (!good) ang_image_clear(out);
     return good;
 #else
-    (void)a, (void)b, (void)scale;
+    (void)a, (void)b, (void)quantised, (void)scale;
     return ang_fail(err, ANG_USAGE, "this build has no OpenCV (ANG_WITH_OPENCV), which colours the heat map");
 #endif
 }

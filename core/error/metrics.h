@@ -25,8 +25,9 @@ typedef struct ang_metrics {
 bool ang_metrics_compute(const ang_image *a, const ang_image *b, bool quantised, ang_metrics *out, ang_error *err);
 
 /* A heat map of the pixels' differences into a new opaque picture: black where equal, then OpenCV's "inferno" up to
- * yellow for the largest, whose height in levels goes to `scale` (may be NULL). Free `out` with ang_image_clear. False
- * as above, and with ANG_USAGE in a build without OpenCV. Thread safe. */
-bool ang_metrics_heat(const ang_image *a, const ang_image *b, ang_image *out, double *scale, ang_error *err);
+ * yellow for the largest, whose height in levels goes to `scale` (may be NULL); `quantised` as above. Free `out` with
+ * ang_image_clear. False as above, and with ANG_USAGE in a build without OpenCV. Thread safe. */
+bool ang_metrics_heat(const ang_image *a, const ang_image *b, bool quantised, ang_image *out, double *scale,
+                      ang_error *err);
 
 #endif

@@ -19,14 +19,6 @@ ang_vec3 ang_mat4_transposed_direction(const ang_mat4 *a, ang_vec3 v) {
                       a->m[0][2] * v.x + a->m[1][2] * v.y + a->m[2][2] * v.z};
 }
 
-ang_mat4 ang_mat4_multiply(const ang_mat4 *a, const ang_mat4 *b) {
-    ang_mat4 product = {0};
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            for (int k = 0; k < 4; k++) product.m[i][j] += a->m[i][k] * b->m[k][j];
-    return product;
-}
-
 double ang_mat4_determinant(const ang_mat4 *a) {
     return ang_vec3_dot(ang_mat4_column(a, 0), ang_vec3_cross(ang_mat4_column(a, 1), ang_mat4_column(a, 2)));
 }

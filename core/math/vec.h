@@ -46,8 +46,6 @@ ang_vec3 ang_mat4_point(const ang_mat4 *a, ang_vec3 p);
 ang_vec3 ang_mat4_direction(const ang_mat4 *a, ang_vec3 d);
 /* The transposed linear part applied to v: with a = inverse(affine) it takes an index-space gradient to mm. */
 ang_vec3 ang_mat4_transposed_direction(const ang_mat4 *a, ang_vec3 v);
-/* a b */
-ang_mat4 ang_mat4_multiply(const ang_mat4 *a, const ang_mat4 *b);
 /* The determinant of the linear part. */
 double ang_mat4_determinant(const ang_mat4 *a);
 /* The inverse of an affine map; false where the linear part is singular to working precision. */

@@ -96,7 +96,7 @@ ang_gl *ang_gl_create(ang_backend backend, ang_error *err) {
     if (!egl && !osmesa)
         ang_fail(err, ANG_GL, "no OpenGL was asked for: choose --backend auto, or a method that needs none (cpu)");
     else
-        ang_fail(err, ANG_GL, "no usable OpenGL (%s); install libegl1 or libosmesa6, or choose --method cpu",
+        ang_fail(err, ANG_GL, "no usable OpenGL (%s); install libegl1 or libosmesa6, or choose --method reference",
                  attempts.text);
     return NULL;
 }

@@ -38,8 +38,8 @@ typedef struct ang_method {
     /* A renderer of this volume, which must outlive it; `gl` is NULL where needs_gl is false. NULL with ANG_GL,
      * ANG_LIMIT. */
     ang_renderer *(*create)(ang_gl *gl, const ang_volume *volume, ang_error *err);
-    /* Renders into `image` (created by the caller with the scene's size). False with an error; ANG_INTERRUPTED where
-     * `progress` asked for it. `stats` may be NULL. */
+    /* Renders into `image` (created by the caller with the scene's size). False with ANG_USAGE (ang_scene_check),
+     * ANG_GEOMETRY, ANG_LIMIT, ANG_GL, or ANG_INTERRUPTED where `progress` asked for it. `stats` may be NULL. */
     bool (*render)(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err);
     void (*destroy)(ang_renderer *renderer);

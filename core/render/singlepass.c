@@ -43,7 +43,7 @@ static void destroy(ang_renderer *renderer) {
 
 static ang_renderer *create(ang_gl *gl, const ang_volume *volume, ang_error *err) {
     if (!gl) {
-        ang_fail(err, ANG_GL, "--method singlepass needs OpenGL: choose another --backend, or --method cpu");
+        ang_fail(err, ANG_GL, "--method singlepass needs OpenGL: choose another --backend, or --method reference");
         return NULL;
     }
     ang_renderer *renderer = ang_alloc(1, sizeof *renderer, "the single-pass renderer", err);
@@ -55,6 +55,8 @@ static ang_renderer *create(ang_gl *gl, const ang_volume *volume, ang_error *err
         return NULL;
     }
     glGenVertexArrays(1, &renderer->vertices);
+    /* Until the volume has arrived, so that callers can time it. */
+    glFinish();
     return renderer;
 }
 
@@ -128,14 +130,8 @@ static ang_shader_source compose(const ang_scene *scene, const ang_volume *volum
 static GLuint prepare(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, bool counting,
                       ang_error *err) {
     const ang_volume *volume = renderer->volume;
-    if (needs_table(scene)) {
-        if (!scene->transfer) {
-            ang_fail(err, ANG_USAGE, "--mode %s needs a transfer function: give a --preset",
-                     ang_mode_name(scene->mode));
-            return 0;
-        }
-        if (!ang_table_texture_update(&renderer->table, renderer->gl, scene->transfer, volume, err)) return 0;
-    }
+    if (needs_table(scene) && !ang_table_texture_update(&renderer->table, renderer->gl, scene->transfer, volume, err))
+        return 0;
     if (scene->mode == ANG_MODE_MEAN && !ang_volume_texture_add_weight(&renderer->field, renderer->gl, volume, err))
         return 0;
     if (!ang_target_resize(&renderer->target, renderer->gl, scene->width, scene->height, counting, err)) return 0;
@@ -163,8 +159,9 @@ static void set_uniforms(const ang_renderer *renderer, GLuint program, const ang
     if (!needs_table(scene)) ang_uniforms_window(program, volume, scene);
     if (scene->mode == ANG_MODE_DVR) ang_uniform_float(program, "termination", options->termination);
     if (scene->mode == ANG_MODE_MEAN) {
-        double padding = volume->padding ? ang_volume_padding_value(volume) : 0;
-        ang_uniform_float(program, "mean_padding", padding);
+        /* Without padding any base will do: one near the values keeps the sums small. */
+        double base = volume->padding ? ang_volume_padding_value(volume) : 0.5 * (volume->minimum + volume->maximum);
+        ang_uniform_float(program, "mean_base", base);
         ang_uniform_float(program, "mean_empty", ang_volume_stored(volume, -1000));
     }
     if (scene->mode == ANG_MODE_ISO) {
@@ -179,10 +176,10 @@ static void set_uniforms(const ang_renderer *renderer, GLuint program, const ang
 static bool draw_bands(ang_renderer *renderer, ang_image *image, ang_frame_stats *stats, const ang_progress *progress,
                        ang_error *err) {
     const ang_target *target = &renderer->target;
-    float *row = NULL;
+    float *counts = NULL;
     if (stats) {
-        row = ang_alloc((size_t)target->width, sizeof *row, "a row of counts", err);
-        if (!row) return false;
+        counts = ang_alloc((size_t)target->width * BAND_ROWS, sizeof *counts, "a band of counts", err);
+        if (!counts) return false;
     }
     bool going = true;
     for (int first = 0; first < target->height && going; first += BAND_ROWS) {
@@ -190,10 +187,10 @@ static bool draw_bands(ang_renderer *renderer, ang_image *image, ang_frame_stats
         glScissor(0, first, target->width, rows);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         ang_target_read(target, first, rows, image);
-        if (stats) ang_target_read_counts(target, first, rows, row, &stats->samples, &stats->fragments);
+        if (stats) ang_target_read_counts(target, first, rows, counts, &stats->samples, &stats->fragments);
         going = ang_progress_update(progress, "rendering", (double)(first + rows) / target->height);
     }
-    free(row);
+    free(counts);
     return going || ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering");
 }
 
@@ -203,7 +200,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
         return ang_fail(err, ANG_USAGE, "--step %g: give a positive multiple of the smallest spacing",
                         options->step_voxels);
     ang_ray_frame frame;
-    if (!ang_ray_frame_make(renderer->volume, scene, &frame, err)) return false;
+    if (!ang_scene_check(scene, err) || !ang_ray_frame_make(renderer->volume, scene, &frame, err)) return false;
     GLuint program = prepare(renderer, scene, options, stats != NULL, err);
     if (!program) return false;
     if (stats) *stats = (ang_frame_stats){.step_mm = step_used(renderer->volume, options)};

@@ -57,15 +57,13 @@ void ang_target_read(const ang_target *target, int first, int rows, ang_image *i
                  image->rgba + (size_t)first * (size_t)target->width * 4);
 }
 
-void ang_target_read_counts(const ang_target *target, int first, int rows, float *row, uint64_t *sum,
+void ang_target_read_counts(const ang_target *target, int first, int rows, float *counts, uint64_t *sum,
                             uint64_t *pixels) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffer);
     glReadBuffer(GL_COLOR_ATTACHMENT1);
-    for (int j = first; j < first + rows; j++) {
-        glReadPixels(0, j, target->width, 1, GL_RED, GL_FLOAT, row);
-        for (int i = 0; i < target->width; i++) {
-            *sum += (uint64_t)row[i];
-            *pixels += row[i] > 0;
-        }
+    glReadPixels(0, first, target->width, rows, GL_RED, GL_FLOAT, counts);
+    for (size_t i = 0; i < (size_t)rows * (size_t)target->width; i++) {
+        *sum += (uint64_t)counts[i];
+        *pixels += counts[i] > 0;
     }
 }

@@ -21,8 +21,9 @@ bool ang_target_resize(ang_target *target, ang_gl *gl, int width, int height, bo
 void ang_target_destroy(ang_target *target);
 /* Reads rows [first, first + rows) into the same rows of `image`. */
 void ang_target_read(const ang_target *target, int first, int rows, ang_image *image);
-/* Adds up the counts of rows [first, first + rows): their sum, and the number of pixels above 0. `row` has room for
- * `width` floats. */
-void ang_target_read_counts(const ang_target *target, int first, int rows, float *row, uint64_t *sum, uint64_t *pixels);
+/* Adds up the counts of rows [first, first + rows): their sum, and the number of pixels above 0. `counts` has
+ * room for rows * width floats. */
+void ang_target_read_counts(const ang_target *target, int first, int rows, float *counts, uint64_t *sum,
+                            uint64_t *pixels);
 
 #endif

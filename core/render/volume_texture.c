@@ -18,7 +18,7 @@ static bool fits(ang_gl *gl, const ang_volume *volume, ang_error *err) {
             return ang_fail(
                 err, ANG_LIMIT,
                 "volume of %dx%dx%d voxels: this OpenGL (%s) takes at most %d a side; clip or resample it, or "
-                "choose --method cpu",
+                "choose --method reference",
                 dims[0], dims[1], dims[2], ang_gl_renderer(gl), limit);
     GLint width = 0;
     glTexImage3D(GL_PROXY_TEXTURE_3D, 0, GL_R16, dims[0], dims[1], dims[2], 0, GL_RED, GL_UNSIGNED_SHORT, NULL);
@@ -27,7 +27,7 @@ static bool fits(ang_gl *gl, const ang_volume *volume, ang_error *err) {
         return ang_fail(
             err, ANG_LIMIT,
             "volume of %dx%dx%d voxels is larger than this OpenGL (%s) takes; clip or resample it, or choose "
-            "--method cpu",
+            "--method reference",
             dims[0], dims[1], dims[2], ang_gl_renderer(gl));
     return true;
 }

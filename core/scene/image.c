@@ -1,7 +1,5 @@
 #include "core/scene/image.h"
 
-#include "core/base/memory.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,8 +7,9 @@ bool ang_image_create(ang_image *image, int width, int height, ang_error *err) {
     *image = (ang_image){width, height, NULL};
     if (width < 1 || height < 1)
         return ang_fail(err, ANG_USAGE, "a picture of %d x %d pixels does not exist", width, height);
-    image->rgba = ang_alloc((size_t)width * (size_t)height, 4 * sizeof(float), "picture", err);
-    return image->rgba != NULL;
+    image->rgba = calloc((size_t)width * (size_t)height, 4 * sizeof(float));
+    return image->rgba ||
+           ang_fail(err, ANG_LIMIT, "no memory for a picture of %d x %d pixels; give a smaller --size", width, height);
 }
 
 void ang_image_clear(ang_image *image) {

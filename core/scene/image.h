@@ -12,7 +12,8 @@ typedef struct ang_image {
     float *rgba;
 } ang_image;
 
-/* Allocates width * height * 4 zeros; false with ANG_LIMIT. Free with ang_image_clear. */
+/* Allocates width * height * 4 zeros; false with ANG_LIMIT, or ANG_USAGE for a size
+ * below 1. Free with ang_image_clear. */
 bool ang_image_create(ang_image *image, int width, int height, ang_error *err);
 void ang_image_clear(ang_image *image);
 /* Composites over background (r, g, b, a; not premultiplied) into unassociated RGBA floats in 0..1 (`out`: 4 per

@@ -120,6 +120,18 @@ ang_scene ang_scene_default(const ang_volume *volume) {
     return scene;
 }
 
+bool ang_scene_check(const ang_scene *scene, ang_error *err) {
+    bool coloured = scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO;
+    if (coloured && !scene->transfer)
+        return ang_fail(err, ANG_USAGE, "--mode %s needs a transfer function: give a --preset",
+                        ang_mode_name(scene->mode));
+    if (scene->mode == ANG_MODE_ISO && !isfinite(scene->iso_hu))
+        return ang_fail(err, ANG_USAGE, "--mode iso needs a value: give --iso HU");
+    if (scene->width < 1 || scene->height < 1)
+        return ang_fail(err, ANG_USAGE, "a picture of %d x %d pixels does not exist", scene->width, scene->height);
+    return true;
+}
+
 bool ang_scene_clip_parse(const char *text, const ang_volume *volume, ang_scene *scene, ang_error *err) {
     double bound[6];
     ang_vec3 lower, upper;

@@ -71,6 +71,9 @@ typedef struct ang_scene {
 /* 512x512, anterior, whole box, dvr, no shading, window 400/40 (width/centre), no transfer function, black background.
  */
 ang_scene ang_scene_default(const ang_volume *volume);
+/* Whether the scene can be drawn: dvr and iso need a transfer function, iso a finite value, and the size must be
+ * positive. False with ANG_USAGE. Every method asks this first. */
+bool ang_scene_check(const ang_scene *scene, ang_error *err);
 /* "x0,x1,y0,y1,z0,z1" in mm from the first voxel, or each with % of the box. Refused with ANG_USAGE where empty or not
  * numbers; limited to the box. */
 bool ang_scene_clip_parse(const char *text, const ang_volume *volume, ang_scene *scene, ang_error *err);

@@ -224,14 +224,6 @@ double ang_volume_sample(const ang_volume *volume, ang_vec3 index) {
     return blend(&at, value);
 }
 
-double ang_volume_tissue_weight(const ang_volume *volume, ang_vec3 index) {
-    if (!volume->padding) return 1;
-    cell at = cell_around(volume, index);
-    double value[8];
-    for (int c = 0; c < 8; c++) value[c] = ang_volume_is_padding(volume, at.corner[c]) ? 0 : 1;
-    return blend(&at, value);
-}
-
 ang_vec3 ang_volume_gradient(const ang_volume *volume, const ang_mat4 *to_index, ang_vec3 index) {
     ang_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
     ang_vec3 difference = {

@@ -66,8 +66,6 @@ bool ang_volume_find_padding(const ang_volume *volume, uint16_t *padding_value);
 
 /* Trilinear interpolation of the stored values at a point in voxel index space, clamped to the box. */
 double ang_volume_sample(const ang_volume *volume, ang_vec3 index);
-/* The same for the weight of what is not padding: 1 where no corner is padding, 0 where all are. */
-double ang_volume_tissue_weight(const ang_volume *volume, ang_vec3 index);
 /* The gradient in HU per mm, LPS: central differences of ang_volume_sample one voxel to each side along the index axes,
  * clamped at the box, halved, taken to mm by the inverse transpose of the affine (DESIGN.md, "Gradient"). `to_index` is
  * the inverse of the affine. */

@@ -9,12 +9,13 @@
  * and written as they are, without a colour transform. By extension, in any case:
  *   .png        8 bit, unassociated alpha, round(255 x) of the clipped value; RGB only where every pixel is opaque
  *   .tif .tiff  8 bit, the same
- *   .exr        float, alpha associated (premultiplied), not clipped: what was computed, exactly
+ *   .exr        float, alpha associated (premultiplied), not clipped: over a background of alpha 0 exactly
+ *               what was computed
  *   .ppm        8 bit RGB, premultiplied: what is not opaque shows black below
  *   .pfm        float RGB, premultiplied, not clipped, little endian
- * No metadata beside the program's name. The file appears whole or not at all. False with ANG_OUTPUT naming the file
- * and the system's reason, with ANG_USAGE for an extension that is not known or a format that this build leaves out,
- * with ANG_LIMIT where memory is out. Thread safe. */
+ * No metadata beside the program's name and, in PNG, that colours are sRGB. The file appears whole or not at all. False
+ * with ANG_OUTPUT naming the file and the system's reason, with ANG_USAGE for an extension that is not known or a
+ * format that this build leaves out, with ANG_LIMIT where memory is out. Thread safe. */
 bool ang_image_write(const char *path, const ang_image *image, const double background[4], ang_error *err);
 
 /* ANG_USAGE where ang_image_write would refuse the extension of `path`: to be asked before long work. Thread safe. */

@@ -21,6 +21,9 @@ static ang_gl *open_backend(ang_backend backend) {
     ang_error err = {0};
     ang_gl *gl = ang_gl_create(backend, &err);
     if (gl) return gl;
+#ifdef ANG_WITH_OSMESA
+    if (backend == ANG_BACKEND_OSMESA) fail_msg("this build has OSMesa, but: %s", err.message);
+#endif
     print_message("no %s here: %s\n", ang_backend_name(backend), err.message);
     assert_int_equal(err.code, ANG_GL);
     assert_non_null(strstr(err.message, ang_backend_name(backend)));
@@ -157,7 +160,8 @@ static void read_voxels(ang_gl *gl, const ang_volume *volume, bool manual, ang_i
 
 /* `filter_tolerance`: where the texture unit filters at a voxel's centre, its coordinate is off by float rounding,
  * which lets a neighbour in by that share. */
-static void check_voxels(ang_gl *gl, const ang_volume *volume, int width, int height, double filter_tolerance) {
+static void check_voxels(ang_gl *gl, const ang_volume *volume, int width, int height, double filter_tolerance,
+                         double field_tolerance) {
     for (int manual = 0; manual < 2; manual++) {
         ang_image image;
         assert_true(ang_image_create(&image, width, height, NULL));
@@ -167,7 +171,8 @@ static void check_voxels(ang_gl *gl, const ang_volume *volume, int width, int he
             double stored = volume->data[i];
             assert_close(values[0], stored, stored * 2.5e-7);
             assert_close(values[1], stored, filter_tolerance);
-            assert_close(values[2], stored, filter_tolerance);
+            /* What renderers read: whole stored values come back whole. */
+            assert_close(values[2], stored, field_tolerance);
             assert_true(values[3] == stored);
         }
         ang_image_clear(&image);
@@ -182,7 +187,8 @@ static void all_65536_values_are_read_back(void **state) {
     for (int b = 0; b < backend_count; b++) {
         ang_gl *gl = open_backend(backends[b]);
         if (!gl) continue;
-        check_voxels(gl, volume, 256, 256, 0.02);
+        /* Coordinates are exact where the sides are powers of two. */
+        check_voxels(gl, volume, 256, 256, 0.02, 0);
         ang_gl_destroy(gl);
     }
     ang_volume_free(volume);
@@ -196,7 +202,7 @@ static void rows_of_odd_length_are_not_padded(void **state) {
     for (int b = 0; b < backend_count; b++) {
         ang_gl *gl = open_backend(backends[b]);
         if (!gl) continue;
-        check_voxels(gl, volume, 15, 7, 0.02);
+        check_voxels(gl, volume, 15, 7, 0.02, 0.02);
         ang_gl_destroy(gl);
     }
     ang_volume_free(volume);

@@ -151,17 +151,17 @@ static void heat_is_black_where_equal(void **state) {
     double scale = 0;
     ang_error err = {0};
 #ifdef ANG_WITH_OPENCV
-    assert_true(ang_metrics_heat(&a, &b, &heat, &scale, &err));
+    assert_true(ang_metrics_heat(&a, &b, false, &heat, &scale, &err));
     near(scale, 127.5, 1e-4);
     assert_true(heat.rgba[0] == 0 && heat.rgba[1] == 0 && heat.rgba[2] == 0 && heat.rgba[3] == 1);
     assert_true(heat.rgba[4 * 9] > 0.9F && heat.rgba[4 * 9 + 1] > 0.9F); /* red and green: the map ends in yellow */
     assert_true(heat.rgba[4 * 10] < heat.rgba[4 * 9] && heat.rgba[4 * 10] > 0);
     ang_image_clear(&heat);
-    assert_true(ang_metrics_heat(&a, &a, &heat, &scale, &err));
+    assert_true(ang_metrics_heat(&a, &a, false, &heat, &scale, &err));
     assert_true(scale == 0 && heat.rgba[0] == 0);
     ang_image_clear(&heat);
 #else
-    assert_false(ang_metrics_heat(&a, &b, &heat, &scale, &err));
+    assert_false(ang_metrics_heat(&a, &b, false, &heat, &scale, &err));
     assert_int_equal(err.code, ANG_USAGE);
 #endif
     ang_image_clear(&a);

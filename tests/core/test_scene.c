@@ -167,11 +167,34 @@ static void pictures_are_composited_over_their_background(void **state) {
     assert_false(ang_image_create(&image, 0, 5, &err));
 }
 
+static void scenes_that_cannot_be_drawn_are_refused(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    ang_scene scene = ang_scene_default(volume);
+    ang_error err = {0};
+    assert_false(ang_scene_check(&scene, &err));
+    assert_int_equal(err.code, ANG_USAGE);
+    scene.mode = ANG_MODE_MIP;
+    assert_true(ang_scene_check(&scene, &err));
+    ang_transfer *transfer = constant_transfer(1, 1, 1, 1);
+    scene.transfer = transfer;
+    scene.mode = ANG_MODE_ISO;
+    scene.iso_hu = NAN;
+    assert_false(ang_scene_check(&scene, &err));
+    scene.iso_hu = 100;
+    assert_true(ang_scene_check(&scene, &err));
+    scene.width = 0;
+    assert_false(ang_scene_check(&scene, &err));
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(named_views_stand_where_they_say),
         cmocka_unit_test(standard_camera_is_that_of_the_design),
         cmocka_unit_test(bad_views_are_refused),
+        cmocka_unit_test(scenes_that_cannot_be_drawn_are_refused),
         cmocka_unit_test(clip_boxes_are_read_in_mm_and_percent),
         cmocka_unit_test(rays_enter_and_leave_where_a_plain_computation_says),
         cmocka_unit_test(pictures_are_composited_over_their_background),

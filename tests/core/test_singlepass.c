@@ -215,6 +215,29 @@ static void extremes_and_mean_of_a_ramp(void **state) {
     ang_volume_free(volume);
 }
 
+/* Signed data lie near 33000 stored; sums over thousands of steps must not lose what the window shows. */
+static void mean_does_not_drift_with_the_step(void **state) {
+    open_gl(state);
+    ang_volume *volume = make_volume(64, 96, 64, unit, flat_value);
+    volume->intercept = -32768;
+    for (size_t i = 0; i < ang_volume_count(volume); i++) volume->data[i] = 32768 + 41;
+    volume->data[0] = 32768 - 1024;
+    ang_volume_update_range(volume, 1);
+    ang_scene scene = make_scene(volume, NULL, "anterior", ANG_PARALLEL);
+    scene.mode = ANG_MODE_MEAN;
+    scene.window_centre = 40;
+    scene.window_width = 80;
+    for (double step = 1; step > 0.01; step /= 4) {
+        ang_render_options options = exact;
+        options.step_voxels = step;
+        ang_image image = draw_once(gl, volume, &scene, &options);
+        double hu = 80 * (image.rgba[4 * (width * height / 2 + width / 2)] - 0.5) + 40;
+        assert_close(hu, 41, 1e-3);
+        ang_image_clear(&image);
+    }
+    ang_volume_free(volume);
+}
+
 static void mean_leaves_padding_out(void **state) {
     open_gl(state);
     ang_volume *volume = make_volume(8, 16, 8, unit, flat_value);
@@ -398,6 +421,9 @@ static int open_backend(void **state, ang_backend backend) {
     ang_error err = {0};
     *state = ang_gl_create(backend, &err);
     if (!*state) print_message("no %s here: %s\n", ang_backend_name(backend), err.message);
+#ifdef ANG_WITH_OSMESA
+    if (!*state && backend == ANG_BACKEND_OSMESA) return -1;
+#endif
     return 0;
 }
 static int open_osmesa(void **state) { return open_backend(state, ANG_BACKEND_OSMESA); }
@@ -415,6 +441,7 @@ int main(void) {
         cmocka_unit_test(transparent_is_exactly_nothing),
         cmocka_unit_test(a_plateau_at_one_is_a_surface),
         cmocka_unit_test(extremes_and_mean_of_a_ramp),
+        cmocka_unit_test(mean_does_not_drift_with_the_step),
         cmocka_unit_test(mean_leaves_padding_out),
         cmocka_unit_test(iso_surfaces_and_cut_faces),
         cmocka_unit_test(phong_of_a_constant_gradient),
