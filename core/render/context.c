@@ -2,6 +2,7 @@
 
 #include "core/base/memory.h"
 
+#include <dlfcn.h>
 #include <glad/gl.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -74,6 +75,12 @@ bool ang_gl_load(ang_gl *gl, ang_gl_lookup lookup, const char *who, ang_gl_attem
     glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, NULL, GL_TRUE);
     glDebugMessageCallback(remember_message, gl);
     return true;
+}
+
+bool ang_gl_find(void *library, const char *name, void *function) {
+    /* POSIX lets a function pointer be stored through a pointer to void *. */
+    *(void **)function = dlsym(library, name);
+    return *(void **)function != NULL;
 }
 
 bool ang_gl_is_software(const ang_gl *gl) {

@@ -67,12 +67,6 @@ static void close_egl(ang_gl *gl) {
     gl->state = NULL;
 }
 
-static bool find(void *library, const char *name, void *function) {
-    /* POSIX lets a function pointer be stored through a pointer to void *. */
-    *(void **)function = dlsym(library, name);
-    return *(void **)function != NULL;
-}
-
 static bool open_library(egl *state, ang_gl_attempts *attempts) {
     /* NODELETE: drivers keep thread-local state and exit handlers that do not survive being unloaded. */
     state->library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
@@ -81,13 +75,17 @@ static bool open_library(egl *state, ang_gl_attempts *attempts) {
         return false;
     }
     void *lib = state->library;
-    if (!find(lib, "eglGetProcAddress", &state->get_proc_address) || !find(lib, "eglGetError", &state->get_error) ||
-        !find(lib, "eglQueryString", &state->query_string) || !find(lib, "eglInitialize", &state->initialize) ||
-        !find(lib, "eglTerminate", &state->terminate) || !find(lib, "eglReleaseThread", &state->release_thread) ||
-        !find(lib, "eglBindAPI", &state->bind_api) || !find(lib, "eglChooseConfig", &state->choose_config) ||
-        !find(lib, "eglCreateContext", &state->create_context) ||
-        !find(lib, "eglDestroyContext", &state->destroy_context) ||
-        !find(lib, "eglMakeCurrent", &state->make_current)) {
+    if (!ang_gl_find(lib, "eglGetProcAddress", &state->get_proc_address) ||
+        !ang_gl_find(lib, "eglGetError", &state->get_error) ||
+        !ang_gl_find(lib, "eglQueryString", &state->query_string) ||
+        !ang_gl_find(lib, "eglInitialize", &state->initialize) ||
+        !ang_gl_find(lib, "eglTerminate", &state->terminate) ||
+        !ang_gl_find(lib, "eglReleaseThread", &state->release_thread) ||
+        !ang_gl_find(lib, "eglBindAPI", &state->bind_api) ||
+        !ang_gl_find(lib, "eglChooseConfig", &state->choose_config) ||
+        !ang_gl_find(lib, "eglCreateContext", &state->create_context) ||
+        !ang_gl_find(lib, "eglDestroyContext", &state->destroy_context) ||
+        !ang_gl_find(lib, "eglMakeCurrent", &state->make_current)) {
         ang_gl_attempt_failed(attempts, "egl: libEGL.so.1 lacks a function");
         return false;
     }

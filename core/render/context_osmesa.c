@@ -44,12 +44,6 @@ static void close_osmesa(ang_gl *gl) {
     gl->state = NULL;
 }
 
-static bool find(void *library, const char *name, void *function) {
-    /* POSIX lets a function pointer be stored through a pointer to void *. */
-    *(void **)function = dlsym(library, name);
-    return *(void **)function != NULL;
-}
-
 static bool open_library(osmesa *state, ang_gl_attempts *attempts) {
     static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
     /* NODELETE: Mesa and LLVM keep thread-local state and exit handlers that do not survive being unloaded. */
@@ -59,10 +53,10 @@ static bool open_library(osmesa *state, ang_gl_attempts *attempts) {
         ang_gl_attempt_failed(attempts, "osmesa: libOSMesa.so.8 and libOSMesa.so.6 cannot be opened");
         return false;
     }
-    if (find(state->library, "OSMesaCreateContextAttribs", &state->create) &&
-        find(state->library, "OSMesaDestroyContext", &state->destroy) &&
-        find(state->library, "OSMesaMakeCurrent", &state->make_current) &&
-        find(state->library, "OSMesaGetProcAddress", &state->lookup))
+    if (ang_gl_find(state->library, "OSMesaCreateContextAttribs", &state->create) &&
+        ang_gl_find(state->library, "OSMesaDestroyContext", &state->destroy) &&
+        ang_gl_find(state->library, "OSMesaMakeCurrent", &state->make_current) &&
+        ang_gl_find(state->library, "OSMesaGetProcAddress", &state->lookup))
         return true;
     ang_gl_attempt_failed(attempts, "osmesa: the library lacks a function (too old)");
     return false;

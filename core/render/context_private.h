@@ -30,6 +30,9 @@ void ang_gl_attempt_failed(ang_gl_attempts *attempts, const char *format, ...) _
 /* After a backend made its context current: loads the functions, refuses GL below 4.3 and reads what it is. The reason
  * goes to `attempts`, led by `who`. */
 bool ang_gl_load(ang_gl *gl, ang_gl_lookup lookup, const char *who, ang_gl_attempts *attempts);
+/* Stores the address of a library's function through `function`, a pointer to a function pointer; false where the
+ * library has none of that name. */
+bool ang_gl_find(void *library, const char *name, void *function);
 /* Whether GL_RENDERER names a rasteriser on the CPU. */
 bool ang_gl_is_software(const ang_gl *gl);
 

@@ -92,10 +92,12 @@ static ang_shader_source compose(const ang_scene *scene, const ang_volume *volum
     ANG_SHADER_ADD(&source, ray);
     ANG_SHADER_ADD(&source, lattice);
     ANG_SHADER_ADD(&source, field);
-    if (manual)
+    if (manual) {
+        ANG_SHADER_ADD(&source, trilinear);
         ANG_SHADER_ADD(&source, field_manual);
-    else
+    } else {
         ANG_SHADER_ADD(&source, field_hardware);
+    }
     if (needs_table(scene))
         add_shading(&source, scene);
     else

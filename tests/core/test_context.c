@@ -10,8 +10,8 @@
 #include <string.h>
 
 /* From shaders/, embedded; tests see no generated headers. */
-extern const char ang_shader_version[], ang_shader_triangle[], ang_shader_field[], ang_shader_field_manual[],
-    ang_shader_field_hardware[];
+extern const char ang_shader_version[], ang_shader_triangle[], ang_shader_field[], ang_shader_trilinear[],
+    ang_shader_field_manual[], ang_shader_field_hardware[];
 
 static const ang_backend backends[] = {ANG_BACKEND_OSMESA, ANG_BACKEND_EGL};
 enum { backend_count = sizeof backends / sizeof *backends };
@@ -131,10 +131,12 @@ static void read_voxels(ang_gl *gl, const ang_volume *volume, bool manual, ang_i
     ANG_SHADER_ADD(&vertex, triangle);
     ANG_SHADER_ADD(&fragment, version);
     ANG_SHADER_ADD(&fragment, field);
-    if (manual)
+    if (manual) {
+        ANG_SHADER_ADD(&fragment, trilinear);
         ANG_SHADER_ADD(&fragment, field_manual);
-    else
+    } else {
         ANG_SHADER_ADD(&fragment, field_hardware);
+    }
     ang_shader_add(&fragment, "test", text);
     unsigned program = ang_programs_get(&programs, "a test", &vertex, &fragment, &err);
     if (!program) fail_msg("%s", err.message);
