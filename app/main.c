@@ -1,5 +1,6 @@
 #include "app/verbs.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -29,18 +30,29 @@ static void print_usage(FILE *out) {
                  "130 interrupted.\n");
 }
 
+/* The exit code, or ANG_OUTPUT where what was printed did not arrive. */
+static int finish(int code) {
+    if (code == ANG_OK && (fflush(stdout) != 0 || ferror(stdout))) {
+        fprintf(stderr, "angioscope: standard output cannot be written\n");
+        return ANG_OUTPUT;
+    }
+    return code;
+}
+
 int main(int argc, char **argv) {
+    /* A closed pipe is an output that cannot be written, not a reason to die. */
+    signal(SIGPIPE, SIG_IGN);
     if (argc < 2) {
         print_usage(stderr);
         return ANG_USAGE;
     }
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
         print_usage(stdout);
-        return ANG_OK;
+        return finish(ANG_OK);
     }
     if (strcmp(argv[1], "--version") == 0) {
         puts("angioscope " ANG_VERSION);
-        return ANG_OK;
+        return finish(ANG_OK);
     }
     for (int i = 0; i < verb_count; i++) {
         if (strcmp(argv[1], verbs[i].name) != 0) continue;
@@ -51,16 +63,12 @@ int main(int argc, char **argv) {
             if (options.help) {
                 printf("angioscope %s\n%s\n\n", verbs[i].usage, verbs[i].summary);
                 ang_options_help(verbs[i].verb, stdout);
-                return ANG_OK;
+                return finish(ANG_OK);
             }
             code = verbs[i].run(&options, &err);
         }
         if (code != ANG_OK && err.message[0]) fprintf(stderr, "angioscope: %s\n", err.message);
-        if (code == ANG_OK && (fflush(stdout) != 0 || ferror(stdout))) {
-            fprintf(stderr, "angioscope: standard output cannot be written\n");
-            return ANG_OUTPUT;
-        }
-        return code;
+        return finish(code);
     }
     fprintf(stderr, "angioscope: there is no verb '%s'; 'angioscope --help' lists them\n", argv[1]);
     return ANG_USAGE;

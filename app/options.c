@@ -37,7 +37,7 @@ typedef struct option_spec {
 
 static const option_spec table[] = {
     {"output", 'o', TEXT, ANG_VERB_RENDER | ANG_VERB_PHANTOM, FIELD(output), "OUT", 0, 0, NULL, NULL,
-     "picture to write (.png, .tif, .exr; numbered with --frames), or the phantom's folder"},
+     "what to write: a picture (.png, .tif, .exr; numbered with --frames); for phantom a folder"},
     TEXT_OPTION("series", READS, series, "N|UID", NULL,
                 "series to load, as numbered by info, or the end of its UID; default: the largest CT volume"),
     TEXT_OPTION("preset", ANG_VERB_RENDER, preset, "NAME|FILE", NULL,
@@ -126,7 +126,7 @@ static bool store(const option_spec *spec, const char *text, ang_options *option
     double value = strtod(text, &end);
     bool whole = spec->type == REAL || value == floor(value);
     if (end == text || *end || !whole || !(value >= spec->min && value <= spec->max))
-        return ang_fail(err, ANG_USAGE, "--%s %s: must be a %snumber from %g to %g%s%s", spec->name, text,
+        return ang_fail(err, ANG_USAGE, "--%s %s: must be a %snumber from %.10g to %.10g%s%s", spec->name, text,
                         spec->type == REAL ? "" : "whole ", spec->min, spec->max, spec->unit ? " " : "",
                         spec->unit ? spec->unit : "");
     if (spec->type == REAL)

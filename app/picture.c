@@ -47,19 +47,16 @@ static ang_preset *preset_from_histogram(const ang_volume *volume, int threads, 
 
 static ang_preset *choose_preset(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
                                  ang_notes *assumptions, ang_error *err) {
-    const char *const *folders = ang_app_preset_folders();
-    if (options->preset) return ang_preset_find(options->preset, folders, err);
     bool hounsfield =
         strcmp(report->format, "DICOM") == 0 && strcmp(report->series[report->chosen].modality, "CT") == 0;
     if (!hounsfield) {
         ang_notes_add(assumptions, "no --preset given: opacity, colour and window come from the histogram");
         return preset_from_histogram(volume, options->threads, err);
     }
-    const char *name = options->mode && strcmp(options->mode, "dvr") != 0 && strcmp(options->mode, "iso") != 0
-                           ? "ct-mip"
-                           : "cta-thorax";
-    ang_notes_add(assumptions, "no --preset given: %s is used", name);
-    return ang_preset_find(name, folders, err);
+    bool values = options->mode && strcmp(options->mode, "dvr") != 0 && strcmp(options->mode, "iso") != 0;
+    const char *name = values ? "ct-mip" : "ct-bone";
+    ang_notes_add(assumptions, "no --preset given: %s is used; 'angioscope presets list' shows others", name);
+    return ang_preset_find(name, ang_app_preset_folders(), err);
 }
 
 static bool read_background(const ang_options *options, double background[4], ang_error *err) {
@@ -72,6 +69,12 @@ static bool read_background(const ang_options *options, double background[4], an
     return true;
 }
 
+bool ang_picture_start(const ang_options *options, ang_picture *picture, ang_error *err) {
+    if (!options->preset) return true;
+    picture->preset = ang_preset_find(options->preset, ang_app_preset_folders(), err);
+    return picture->preset != NULL;
+}
+
 bool ang_picture_make(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
                       ang_picture *picture, ang_notes *assumptions, ang_error *err) {
     ang_scene *scene = &picture->scene;
@@ -81,7 +84,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     scene->width = size[0];
     scene->height = size[1];
 
-    picture->preset = choose_preset(options, volume, report, assumptions, err);
+    if (!picture->preset) picture->preset = choose_preset(options, volume, report, assumptions, err);
     if (!picture->preset) return false;
     const ang_preset *preset = picture->preset;
     scene->transfer = preset->transfer;

@@ -18,8 +18,11 @@ typedef struct ang_picture {
     ang_render_options render;
 } ang_picture;
 
-/* Fills `picture` for this volume. Sentences about choices made for the user go to `assumptions`. False with ANG_USAGE,
- * naming the option, or what reading the preset gives. */
+/* Reads the preset that the user named, where there is one, so that a broken preset or option is refused before the
+ * volume is read. False with what reading the preset gives. */
+bool ang_picture_start(const ang_options *options, ang_picture *picture, ang_error *err);
+/* Fills `picture`, after ang_picture_start, for this volume. Sentences about choices made for the user go to
+ * `assumptions`. False with ANG_USAGE, naming the option, or what reading the preset gives. */
 bool ang_picture_make(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
                       ang_picture *picture, ang_notes *assumptions, ang_error *err);
 void ang_picture_clear(ang_picture *picture);

@@ -5,6 +5,7 @@
 #include "core/render/context.h"
 #include "io/image/annotate.h"
 #include "io/image/image_io.h"
+#include "io/replace.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -93,6 +94,18 @@ static void note_step(session *run) {
                       run->method->name, run->summary.stats.step_mm);
 }
 
+/* A picture with nothing in it is seldom what was wanted. */
+static void note_empty(session *run) {
+    size_t values = 4 * (size_t)run->image.width * (size_t)run->image.height;
+    for (size_t i = 3; i < values; i += 4)
+        if (run->image.rgba[i] > 0) return;
+    ang_notes_add(
+        &run->summary.warnings,
+        "the picture is empty: the values of the volume, %.6g to %.6g HU, are not visible with this preset, iso "
+        "value, clip box or camera",
+        ang_volume_hu(run->volume, run->volume->minimum), ang_volume_hu(run->volume, run->volume->maximum));
+}
+
 static void turn_camera(session *run, double degrees) {
     ang_view view = run->picture.view;
     view.azimuth_deg += degrees;
@@ -127,6 +140,7 @@ static bool render_all(session *run, ang_error *err) {
         if (!render_frame(run, &progress, &run->summary.stats, &milliseconds, err)) return false;
         if (frame == 0) run->summary.first_frame_ms = milliseconds;
         note_step(run);
+        note_empty(run);
         frame_path(options->output, frame, options->frames, path, sizeof path);
         if (!write_picture(run, path, err)) return false;
         if (!options->quiet && options->verbose) fprintf(stderr, "%s: %.0f ms\n", path, milliseconds);
@@ -154,9 +168,17 @@ static bool time_frames(session *run, ang_error *err) {
 
 static bool run_all(session *run, ang_error *err) {
     const ang_options *options = run->options;
-    if (!ang_image_writable(options->output, err) || !load(run, err)) return false;
-    if (!ang_picture_make(options, run->volume, &run->report, &run->picture, &run->report.assumptions, err))
-        return false;
+    bool json_file = options->json && strcmp(options->json, "-") != 0;
+    if (!ang_image_writable(options->output, err)) return false;
+    if (json_file && !ang_file_replaceable(options->json, err)) return false;
+    if (!ang_picture_start(options, &run->picture, err) || !load(run, err)) return false;
+    ang_notes choices = {0};
+    bool made = ang_picture_make(options, run->volume, &run->report, &run->picture, &choices, err);
+    /* What was chosen for the user is said at once; the loader's assumptions are for `info` and -v. */
+    if (made && !options->quiet) ang_app_say(&choices, "note: ");
+    for (size_t i = 0; i < choices.count; i++) ang_notes_add(&run->report.assumptions, "%s", choices.text[i]);
+    ang_notes_clear(&choices);
+    if (!made) return false;
     if (!open_renderer(run, err) || !render_all(run, err) || !time_frames(run, err)) return false;
     if (!options->json) return true;
     return ang_render_json_write(options->json, run->volume, &run->report, &run->picture, run->method, &run->summary,
@@ -172,6 +194,8 @@ int ang_app_render(const ang_options *options, ang_error *err) {
         ang_fail(err, ANG_USAGE, "render: give a picture to write with -o OUT.png");
         return ANG_USAGE;
     }
+    if (options->frames > 1 && options->orbit == 0 && !options->quiet)
+        fprintf(stderr, "note: without --orbit all %d pictures are the same\n", options->frames);
     session run = {.options = options, .progress = ang_app_progress_start(options->quiet)};
     bool done = run_all(&run, err);
     ang_app_progress_end(run.progress);

@@ -45,12 +45,20 @@ static bool write_all(int file, const unsigned char *data, size_t size) {
     return fsync(file) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
-bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err) {
+bool ang_file_replaceable(const char *path, ang_error *err) {
     struct stat status;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
         return ang_fail(err, ANG_OUTPUT, "%s: exists and is %s; give the name of a file", path,
                         S_ISDIR(status.st_mode) ? "a folder" : "not a regular file");
     }
+    char folder[PATH_MAX];
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+    return access(folder, W_OK | X_OK) == 0 || fail(path, errno, err);
+}
+
+bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err) {
+    if (!ang_file_replaceable(path, err)) return false;
     char temporary[PATH_MAX];
     int file = open_temporary(path, temporary, sizeof temporary);
     if (file < 0) return fail(path, errno, err);

@@ -12,6 +12,10 @@
  * regular file (a folder, a device) is refused. Thread safe. */
 bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err);
 
+/* Whether ang_file_replace could write to `path` as things stand: to be asked before long work. False with ANG_OUTPUT.
+ * Thread safe. */
+bool ang_file_replaceable(const char *path, ang_error *err);
+
 /* Makes the folder `path` and its parents where they do not exist. False with ANG_OUTPUT. Thread safe. */
 bool ang_folder_make(const char *path, ang_error *err);
 

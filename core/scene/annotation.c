@@ -67,6 +67,8 @@ ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_na
         snprintf(a.bar_label, sizeof a.bar_label, "%.6g mm%s", a.bar_mm,
                  camera->projection == ANG_PERSPECTIVE ? " at the centre" : "");
     }
+    const double *b = scene->background;
+    a.dark_ink = b[3] * (0.299 * b[0] + 0.587 * b[1] + 0.114 * b[2]) > 0.5;
     const char *mode = ang_mode_name(scene->mode);
     bool named = preset_name && *preset_name;
     snprintf(a.caption, sizeof a.caption, "%.100s%s%s", named ? preset_name : "", named && mode ? ", " : "",

@@ -17,6 +17,7 @@ typedef struct ang_annotation {
     double bar_mm;                        /* 1, 2 or 5 times a power of ten; 0: no bar */
     double bar_pixels;                    /* its length in the picture */
     char bar_label[48];                   /* "50 mm", in perspective "50 mm at the centre" */
+    bool dark_ink;                        /* black with a light outline, for light backgrounds; else white */
     char caption[128];                    /* "cta-head, dvr" */
 } ang_annotation;
 

@@ -101,14 +101,18 @@ static void draw_caption(sheet *sheet, const char *caption, int small) {
     if (length > 0) draw_text(sheet, sheet->margin, sheet->height - sheet->margin, text, small, -1);
 }
 
-static void draw_letters(sheet *sheet, const ang_annotation *a) {
-    int middle_x = sheet->width / 2, middle_y = sheet->height / 2;
-    int width, top, bottom;
+static void draw_side_letters(sheet *sheet, const ang_annotation *a) {
+    int middle = sheet->height / 2, width, top, bottom;
     if (!text_extent(sheet, "H", sheet->size, &width, &top, &bottom)) return;
-    draw_text(sheet, sheet->margin, middle_y - top / 2, a->left.text, sheet->size, -1);
-    draw_text(sheet, sheet->width - sheet->margin, middle_y - top / 2, a->right.text, sheet->size, 1);
-    draw_text(sheet, middle_x, sheet->margin - top, a->top.text, sheet->size, 0);
-    draw_text(sheet, middle_x, sheet->height - sheet->margin, a->bottom.text, sheet->size, 0);
+    draw_text(sheet, sheet->margin, middle - top / 2, a->left.text, sheet->size, -1);
+    draw_text(sheet, sheet->width - sheet->margin, middle - top / 2, a->right.text, sheet->size, 1);
+}
+
+static void draw_end_letters(sheet *sheet, const ang_annotation *a) {
+    int middle = sheet->width / 2, width, top, bottom;
+    if (!text_extent(sheet, "H", sheet->size, &width, &top, &bottom)) return;
+    draw_text(sheet, middle, sheet->margin - top, a->top.text, sheet->size, 0);
+    draw_text(sheet, middle, sheet->height - sheet->margin, a->bottom.text, sheet->size, 0);
 }
 
 /* The largest coverage within `radius` pixels of (x, y), falling off over the last pixel. */
@@ -128,24 +132,24 @@ static float halo(const sheet *sheet, int x, int y, double radius) {
 }
 
 /* Only rows that the halo can touch, so that the large empty middle costs nothing. */
-static void ink(const sheet *sheet, ang_image *image, const unsigned char *rows, double radius) {
-    const float dark = 0.8F;
+static void ink(const sheet *sheet, bool dark_ink, ang_image *image, const unsigned char *rows, double radius) {
+    const float strength = 0.8F;
     for (int y = 0; y < sheet->height; y++) {
         if (!rows[y]) continue;
         for (int x = 0; x < sheet->width; x++) {
             size_t at = (size_t)y * (size_t)sheet->width + (size_t)x;
-            float shade = dark * halo(sheet, x, y, radius), white = sheet->mask[at];
-            if (!(shade > 0)) continue;
+            float outline = strength * halo(sheet, x, y, radius), text = sheet->mask[at];
+            if (!(outline > 0)) continue;
             float *p = image->rgba + 4 * at;
             for (int c = 0; c < 4; c++) {
-                float under = p[c] * (1 - shade) + (c == 3 ? shade : 0);
-                p[c] = under * (1 - white) + white;
+                float outline_value = c == 3 || dark_ink, text_value = c == 3 || !dark_ink;
+                p[c] = (p[c] * (1 - outline) + outline * outline_value) * (1 - text) + text * text_value;
             }
         }
     }
 }
 
-static void blend(const sheet *sheet, ang_image *image, unsigned char *rows) {
+static void blend(const sheet *sheet, bool dark_ink, ang_image *image, unsigned char *rows) {
     double radius = sheet->size / 14.0;
     if (radius < 1) radius = 1;
     int reach = (int)ceil(radius);
@@ -157,7 +161,7 @@ static void blend(const sheet *sheet, ang_image *image, unsigned char *rows) {
             if (y + d >= 0 && y + d < sheet->height) rows[y + d] = 1;
         }
     }
-    ink(sheet, image, rows, radius);
+    ink(sheet, dark_ink, image, rows, radius);
 }
 
 bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_notes *warnings, ang_error *err) {
@@ -165,8 +169,14 @@ bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_
     sheet.size = image->height / 40 > 11 ? image->height / 40 : 11;
     sheet.margin = sheet.size / 2;
     int small = sheet.size * 4 / 5 > 11 ? sheet.size * 4 / 5 : 11;
-    /* Below this the letters alone would fill the picture. */
-    if (image->width < 8 * sheet.size || image->height < 8 * sheet.size) return true;
+    /* Below this the letters alone would fill the picture; a flat one still has room for those at its sides. */
+    bool sides_only = image->height < 8 * sheet.size;
+    if (image->width < 8 * sheet.size || image->height < 3 * sheet.size) {
+        if (warnings) ang_notes_add(warnings, "the picture is too small for letters and a bar: none are drawn");
+        return true;
+    }
+    if (sides_only && warnings)
+        ang_notes_add(warnings, "the picture is too flat for more than the letters at its sides");
 
 #ifdef ANG_WITH_OIIO
     sheet.font = find_font();
@@ -181,10 +191,13 @@ bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_
     sheet.mask = ang_alloc((size_t)image->width * (size_t)image->height, sizeof *sheet.mask, "annotation", err);
     unsigned char *rows = sheet.mask ? ang_alloc((size_t)image->height, 1, "annotation", err) : NULL;
     if (rows) {
-        draw_letters(&sheet, annotation);
-        draw_bar(&sheet, annotation, small);
-        draw_caption(&sheet, annotation->caption, small);
-        blend(&sheet, image, rows);
+        draw_side_letters(&sheet, annotation);
+        if (!sides_only) {
+            draw_end_letters(&sheet, annotation);
+            draw_bar(&sheet, annotation, small);
+            draw_caption(&sheet, annotation->caption, small);
+        }
+        blend(&sheet, annotation->dark_ink, image, rows);
     }
     bool good = rows != NULL;
     free(sheet.mask);

@@ -8,11 +8,12 @@
 #include "core/scene/image.h"
 
 /* Writes letters at the middles of the four edges, the bar with its label at the bottom right, and the caption at the
- * bottom left onto `image`, white with a thin dark outline. Drawn over the premultiplied picture before the background,
+ * bottom left onto `image`, white with a thin dark outline
+ * or the other way round. Drawn over the premultiplied picture before the background,
  * which gives the same as drawing over the finished one. Letters are height / 40 pixels high, at least 11; what has no
- * room is left out. Measure errors before this, not after. Text needs OpenImageIO and the font DejaVu Sans
- * (fonts-dejavu-core): without either the bar alone is drawn and `warnings` (may be NULL) says so. False with
- * ANG_LIMIT. Thread safe for different images. */
+ * room is left out, and `warnings` says so. Measure errors before this, not after. Text needs OpenImageIO and the font
+ * DejaVu Sans (fonts-dejavu-core): without either the bar alone is drawn and `warnings` (may be NULL) says so. False
+ * with ANG_LIMIT. Thread safe for different images. */
 bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_notes *warnings, ang_error *err);
 
 #endif

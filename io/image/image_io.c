@@ -43,7 +43,9 @@ static bool refuse(const char *path, format format, ang_error *err) {
     return true;
 }
 
-bool ang_image_writable(const char *path, ang_error *err) { return refuse(path, format_of(path), err); }
+bool ang_image_writable(const char *path, ang_error *err) {
+    return refuse(path, format_of(path), err) && ang_file_replaceable(path, err);
+}
 
 /* Premultiplied over the background, not clipped. */
 static bool flatten(const ang_image *image, const double background[4], int channels, float **out, ang_error *err) {

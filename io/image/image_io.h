@@ -18,7 +18,8 @@
  * format that this build leaves out, with ANG_LIMIT where memory is out. Thread safe. */
 bool ang_image_write(const char *path, const ang_image *image, const double background[4], ang_error *err);
 
-/* ANG_USAGE where ang_image_write would refuse the extension of `path`: to be asked before long work. Thread safe. */
+/* False where ang_image_write would fail as things stand, with ANG_USAGE for the extension of `path` and ANG_OUTPUT for
+ * its folder: to be asked before long work. Thread safe. */
 bool ang_image_writable(const char *path, ang_error *err);
 
 /* Reads PNG, TIFF, EXR, PPM (P6, 8 bit) or PFM (PF) into a new premultiplied float RGBA picture; grey becomes three

@@ -95,6 +95,23 @@ static void outputs_that_cannot_be_written_give_seven(void **state) {
     assert_non_null(strstr(output, "no/such/folder"));
 }
 
+static void outputs_are_checked_before_the_work(void **state) {
+    (void)state;
+    expect(7, "render " PHANTOM " -o " TMP "/early.png --size 16x16 --quiet --json " TMP "/no/such/x.json 2>&1");
+    assert_false(exists(TMP "/early.png"));
+    expect(7, "render " TMP "/nothing-here -o " TMP "/no/such/x.png 2>&1");
+    expect(2, "render " TMP "/nothing-here -o " TMP "/x.png --preset no-such-preset 2>&1");
+    expect(7, "--help 2>/dev/null >/dev/full");
+}
+
+static void an_empty_picture_is_said(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --mode iso --iso 9999 2>&1");
+    assert_non_null(strstr(output, "empty"));
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --mode iso --iso 300 2>&1");
+    assert_null(strstr(output, "empty"));
+}
+
 static void no_gl_gives_five(void **state) {
     (void)state;
     expect(5, "render " PHANTOM " -o " TMP "/x.png --size 16x16 --method singlepass --backend none --quiet 2>&1");
@@ -217,6 +234,8 @@ int main(void) {
         cmocka_unit_test(help_goes_to_stdout),
         cmocka_unit_test(missing_and_foreign_input_give_three),
         cmocka_unit_test(outputs_that_cannot_be_written_give_seven),
+        cmocka_unit_test(outputs_are_checked_before_the_work),
+        cmocka_unit_test(an_empty_picture_is_said),
         cmocka_unit_test(no_gl_gives_five),
         cmocka_unit_test(info_and_render_describe_the_input),
         cmocka_unit_test(nothing_of_the_patient_is_in_the_json),
