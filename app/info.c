@@ -4,6 +4,7 @@
 #include "io/report.h"
 
 #include <cjson/cJSON.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 int ang_app_info(const ang_options *options, ang_error *err) {
@@ -21,7 +22,9 @@ int ang_app_info(const ang_options *options, ang_error *err) {
     ang_load_report report = {0};
     ang_volume *volume = ang_load(options->arguments[0], &how, &report, ang_app_progress_sink(progress), err);
     ang_app_progress_end(progress);
-    if (!volume) {
+    /* What is not loaded is listed all the same (dicom-rules 1). */
+    bool listed = volume || (report.series_count > 0 && err->code != ANG_INTERRUPTED);
+    if (!listed) {
         if (!options->quiet) ang_app_say(&report.warnings, "warning: ");
     } else if (options->json_flag) {
         cJSON *root = cJSON_CreateObject();
@@ -34,6 +37,7 @@ int ang_app_info(const ang_options *options, ang_error *err) {
     } else {
         ang_load_report_print(stdout, volume, &report, options->keep_phi);
     }
+    fflush(stdout); /* the table before the error */
     int code = volume ? ANG_OK : (int)err->code;
     ang_load_report_clear(&report);
     ang_volume_free(volume);

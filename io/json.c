@@ -29,7 +29,7 @@ static char *read_text(const char *path, ang_error *err) {
     else if (error)
         ang_fail(err, ANG_INPUT, "%s: cannot be read: %s", path, strerror(error));
     else if (size > MOST_BYTES)
-        ang_fail(err, ANG_USAGE, "%s: is larger than %d MB and so no preset", path, MOST_BYTES >> 20);
+        ang_fail(err, ANG_USAGE, "%s: is larger than %d MB, too large to be read", path, MOST_BYTES >> 20);
     else
         ang_fail(err, ANG_USAGE, "%s: is not text and so not JSON", path);
     free(text);

@@ -66,7 +66,8 @@ ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load
     if (!volume) return NULL;
     *err = (ang_error){0};
     if (options->strict && report->warnings.count > 0) {
-        ang_fail(err, ANG_GEOMETRY, "--strict: %s", report->warnings.text[0]);
+        char line[ANG_NOTES_LINE];
+        ang_fail(err, ANG_GEOMETRY, "--strict: %s", ang_notes_line(&report->warnings, 0, true, line, sizeof line));
         ang_volume_free(volume);
         return NULL;
     }

@@ -22,8 +22,8 @@ typedef struct ang_load_options {
 
 /* One 3D image series or what else was found, as listed by `info`. */
 typedef struct ang_series_info {
-    int number; /* 1, 2, ... in the list */
-    char modality[17];
+    int number;        /* 1, 2, ... in the list */
+    char modality[17]; /* a defined term, "other", or "?" where none is given */
     char *description; /* SeriesDescription: may identify a patient */
     char *uid;         /* SeriesInstanceUID: identifies */
     int width, height, slices;
@@ -46,7 +46,7 @@ typedef struct ang_load_report {
     size_t series_count;
     int chosen;           /* index into `series` */
     int slices_read;      /* slices that went into the volume */
-    int slices_duplicate; /* dropped: same position, same pixels */
+    int slices_duplicate; /* dropped: same position (InstanceNumber where positions are missing), same pixels */
     int slices_missing;   /* interpolated */
     ang_gap *gaps;        /* gaps that differ from the median */
     size_t gap_count;
@@ -69,8 +69,8 @@ typedef struct ang_load_report {
 void ang_load_report_clear(ang_load_report *report);
 
 /* Reads `path` into a new volume (free with ang_volume_free) and fills `report`, also as far as it came where it fails.
- * NULL with ANG_INPUT, ANG_GEOMETRY, ANG_LIMIT, ANG_INTERRUPTED. A file that cannot be read costs a warning that names
- * it where others of its series can. `report->warnings` names files by their base name. */
+ * NULL with ANG_USAGE (an option or a sidecar is wrong), ANG_INPUT, ANG_GEOMETRY, ANG_LIMIT, ANG_INTERRUPTED. A file
+ * that cannot be read costs a warning about it where others of its series can; its base name is the note's `file`. */
 ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load_report *report,
                      const ang_progress *progress, ang_error *err);
 

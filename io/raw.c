@@ -1,27 +1,33 @@
 #include "io/formats.h"
+#include "io/json.h"
 #include "io/samples.h"
 
-#include <cjson/cJSON.h>
-#include <errno.h>
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { largest_sidecar = 1 << 20 };
+enum { most_voxels = 65536 }; /* along one axis */
 
 /* What options or sidecar say; strings as in the options. */
 typedef struct raw_form {
     int dims[3];
     double spacing[3];
+    bool has_spacing;
     ang_sample type;
 } raw_form;
 
 static bool parse_dims(const char *text, int dims[3]) {
-    int used = 0;
-    if (sscanf(text, "%dx%dx%d%n", &dims[0], &dims[1], &dims[2], &used) != 3 || text[used]) return false;
-    return dims[0] > 0 && dims[1] > 0 && dims[2] > 0;
+    for (int i = 0; i < 3; i++) {
+        char *end;
+        long value = isdigit((unsigned char)*text) ? strtol(text, &end, 10) : 0; /* strtol alone would skip blanks */
+        if (value < 1 || value > most_voxels || *end != (i < 2 ? 'x' : 0)) return false;
+        dims[i] = (int)value;
+        text = end + 1;
+    }
+    return true;
 }
 
 static bool parse_spacing(const char *text, double spacing[3]) {
@@ -66,52 +72,51 @@ static char *find_sidecar(const char *path) {
     return NULL;
 }
 
-static bool numbers(const cJSON *array, double out[3]) {
-    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != 3) return false;
+/* Three numbers of an array, each within [low, high]. */
+static bool read_numbers(const ang_json *json, const cJSON *array, const char *name, double low, double high,
+                         double out[3], ang_error *err) {
     for (int i = 0; i < 3; i++) {
-        const cJSON *item = cJSON_GetArrayItem(array, i);
-        if (!cJSON_IsNumber(item)) return false;
-        out[i] = item->valuedouble;
+        char path[32];
+        snprintf(path, sizeof path, "%s[%d]", name, i);
+        if (!ang_json_number(json, cJSON_GetArrayItem(array, i), path, low, high, &out[i], err)) return false;
     }
     return true;
 }
 
-static bool use_sidecar(const cJSON *json, const char *label, raw_form *form, ang_error *err) {
-    const cJSON *dims = cJSON_GetObjectItemCaseSensitive(json, "dims");
-    const cJSON *type = cJSON_GetObjectItemCaseSensitive(json, "type");
-    const cJSON *spacing = cJSON_GetObjectItemCaseSensitive(json, "spacing");
+static bool is_triple(const cJSON *item) { return cJSON_IsArray(item) && cJSON_GetArraySize(item) == 3; }
+
+static bool use_dims(const ang_json *json, const cJSON *dims, raw_form *form, ang_error *err) {
     double v[3];
-    bool ok = false;
-    if (cJSON_IsString(dims)) {
-        ok = parse_dims(dims->valuestring, form->dims);
-    } else if (numbers(dims, v)) {
-        ok = true;
-        for (int i = 0; i < 3; i++) {
-            ok = ok && v[i] >= 1 && v[i] <= 2147483647.0 && v[i] == floor(v[i]);
-            form->dims[i] = ok ? (int)v[i] : 0;
-        }
+    bool ok = cJSON_IsString(dims) && parse_dims(dims->valuestring, form->dims);
+    if (!ok && is_triple(dims)) {
+        if (!read_numbers(json, dims, "dims", 1, most_voxels, v, err)) return false;
+        for (int i = 0; i < 3; i++) form->dims[i] = (int)v[i];
+        ok = v[0] == floor(v[0]) && v[1] == floor(v[1]) && v[2] == floor(v[2]);
     }
-    if (!ok) return ang_fail(err, ANG_INPUT, "%s: \"dims\" must be [x, y, z], whole numbers of voxels", label);
+    return ok || ang_json_fail(json, "dims", err, "dims must be [x, y, z], whole numbers of voxels from 1 to %d",
+                               most_voxels);
+}
+
+static bool use_sidecar(const ang_json *json, raw_form *form, ang_error *err) {
+    if (!cJSON_IsObject(json->root))
+        return ang_json_fail(json, "", err, "must be an object with dims, type and spacing");
+    const cJSON *type = cJSON_GetObjectItemCaseSensitive(json->root, "type");
+    const cJSON *spacing = cJSON_GetObjectItemCaseSensitive(json->root, "spacing");
+    if (!use_dims(json, cJSON_GetObjectItemCaseSensitive(json->root, "dims"), form, err)) return false;
     if (!cJSON_IsString(type) || !parse_type(type->valuestring, &form->type))
-        return ang_fail(err, ANG_INPUT, "%s: \"type\" must be u8, i8, u16, i16 or f32", label);
+        return ang_json_fail(json, "type", err, "type must be \"u8\", \"i8\", \"u16\", \"i16\" or \"f32\"");
     if (!spacing) return true;
-    ok = cJSON_IsString(spacing) ? parse_spacing(spacing->valuestring, form->spacing) : numbers(spacing, form->spacing);
-    for (int i = 0; i < 3; i++) ok = ok && form->spacing[i] > 0 && isfinite(form->spacing[i]);
-    return ok || ang_fail(err, ANG_INPUT, "%s: \"spacing\" must be [x, y, z] in mm", label);
+    form->has_spacing = true;
+    if (is_triple(spacing)) return read_numbers(json, spacing, "spacing", 1e-6, 1e6, form->spacing, err);
+    return (cJSON_IsString(spacing) && parse_spacing(spacing->valuestring, form->spacing)) ||
+           ang_json_fail(json, "spacing", err, "spacing must be [x, y, z] in mm");
 }
 
 static bool read_sidecar(const char *path, raw_form *form, ang_error *err) {
-    const char *label = ang_base_name(path);
-    FILE *file = fopen(path, "rb");
-    if (!file) return ang_fail(err, ANG_INPUT, "%s: %s", label, strerror(errno));
-    char *text = malloc(largest_sidecar);
-    size_t length = text ? fread(text, 1, largest_sidecar, file) : 0;
-    fclose(file);
-    cJSON *json = text ? cJSON_ParseWithLength(text, length) : NULL;
-    free(text);
-    bool ok = cJSON_IsObject(json) ? use_sidecar(json, label, form, err)
-                                   : ang_fail(err, ANG_INPUT, "%s: is no JSON object", label);
-    cJSON_Delete(json);
+    ang_json json;
+    if (!ang_json_open(path, &json, err)) return false;
+    bool ok = use_sidecar(&json, form, err);
+    ang_json_close(&json);
     return ok;
 }
 
@@ -133,7 +138,8 @@ static bool find_form(const char *path, const ang_load_options *options, raw_for
         free(sidecar);
         if (!ok) return false;
     } else if (!parse_dims(options->raw_dims, form->dims)) {
-        return ang_fail(err, ANG_USAGE, "--raw-dims %s: must be XxYxZ, such as 256x256x128", options->raw_dims);
+        return ang_fail(err, ANG_USAGE, "--raw-dims %s: must be XxYxZ, such as 256x256x128, each from 1 to %d",
+                        options->raw_dims, most_voxels);
     } else if (!options->raw_type) {
         return ang_fail(err, ANG_USAGE, "--raw-dims needs --raw-type u8, i8, u16, i16 or f32");
     }
@@ -141,8 +147,9 @@ static bool find_form(const char *path, const ang_load_options *options, raw_for
         return ang_fail(err, ANG_USAGE, "--raw-type %s: must be u8, i8, u16, i16 or f32", options->raw_type);
     if (options->raw_spacing && !parse_spacing(options->raw_spacing, form->spacing))
         return ang_fail(err, ANG_USAGE, "--raw-spacing %s: must be X,Y,Z in mm", options->raw_spacing);
-    if (options->raw_dims && !options->raw_spacing)
-        ang_notes_add(&report->assumptions, "no --raw-spacing: voxels are taken as 1 x 1 x 1 mm");
+    if (!form->has_spacing && !options->raw_spacing)
+        ang_notes_add(&report->assumptions, "%s: voxels are taken as 1 x 1 x 1 mm",
+                      options->raw_dims ? "no --raw-spacing" : "the sidecar gives no spacing");
     return true;
 }
 

@@ -1,6 +1,7 @@
 #include "io/report.h"
 
 #include "io/json.h"
+#include "io/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,13 +12,11 @@ void ang_load_report_name(const ang_load_report *report, char name[32]) {
     snprintf(name, 32, "%08x-%d", (unsigned)report->stored_crc32, number);
 }
 
-void ang_load_report_masked(const char *text, bool keep_phi, char *out, size_t size) {
-    static const char prefix[] = "file \"";
-    const char *end = strncmp(text, prefix, sizeof prefix - 1) == 0 ? strstr(text, "\": ") : NULL;
-    if (keep_phi || !end)
-        snprintf(out, size, "%s", text);
-    else
-        snprintf(out, size, "a file: %s", end + 3);
+/* Text of the file for JSON and the table, in `out`. */
+static const char *clean(const char *text, char *out, size_t size) {
+    snprintf(out, size, "%s", text ? text : "");
+    ang_text_clean(out);
+    return out;
 }
 
 static const char *or_dash(const char *text) { return text && text[0] ? text : "-"; }
@@ -26,8 +25,9 @@ static void print_notes(FILE *out, const char *title, const ang_notes *notes, bo
     if (notes->count == 0) return;
     fprintf(out, "%s\n", title);
     for (size_t i = 0; i < notes->count; i++) {
-        char text[1024];
-        ang_load_report_masked(notes->text[i], keep_phi, text, sizeof text);
+        char text[ANG_NOTES_LINE];
+        ang_notes_line(notes, i, keep_phi, text, sizeof text);
+        ang_text_clean(text);
         fprintf(out, "  - %s\n", text);
     }
 }
@@ -37,14 +37,15 @@ static void print_series(FILE *out, const ang_volume *volume, const ang_load_rep
     fprintf(out, "    no. kind   columns x rows x slices   spacing mm            remark\n");
     for (size_t i = 0; i < report->series_count; i++) {
         const ang_series_info *info = &report->series[i];
-        char size[48], spacing[64];
+        char size[48], spacing[64], description[ANG_NOTES_LINE];
         snprintf(size, sizeof size, "%d x %d x %d", info->width, info->height, info->slices);
         snprintf(spacing, sizeof spacing, "%.3f x %.3f x %.3f", info->spacing_mm[0], info->spacing_mm[1],
                  info->spacing_mm[2]);
         bool chosen = volume && (int)i == report->chosen;
+        clean(keep_phi ? info->description : NULL, description, sizeof description);
         fprintf(out, "  %c %3d %-6s %-25s %-21s %s%s%s%s\n", chosen ? '*' : ' ', info->number, info->modality, size,
-                spacing, info->loadable ? "" : "not a volume: ", or_dash(info->remark),
-                keep_phi && info->description[0] ? "; " : "", keep_phi ? info->description : "");
+                spacing, info->loadable ? "" : "not a volume: ", or_dash(info->remark), description[0] ? "; " : "",
+                description);
     }
 }
 
@@ -116,7 +117,7 @@ static void print_values(FILE *out, const ang_volume *volume, const ang_load_rep
 void ang_load_report_print(FILE *out, const ang_volume *volume, const ang_load_report *report, bool keep_phi) {
     char name[32];
     ang_load_report_name(report, name);
-    fprintf(out, "Input          %s, %s\n", report->format[0] ? report->format : "?", name);
+    fprintf(out, "Input          %s, %s\n", report->format[0] ? report->format : "?", volume ? name : "not loaded");
     if (report->series_count) print_series(out, volume, report, keep_phi);
     if (volume) {
         print_geometry(out, volume, report);
@@ -133,8 +134,9 @@ static void add_numbers(cJSON *object, const char *name, const double *values, i
 static void add_notes(cJSON *object, const char *name, const ang_notes *notes, bool keep_phi) {
     cJSON *array = cJSON_AddArrayToObject(object, name);
     for (size_t i = 0; i < notes->count; i++) {
-        char text[1024];
-        ang_load_report_masked(notes->text[i], keep_phi, text, sizeof text);
+        char text[ANG_NOTES_LINE];
+        ang_notes_line(notes, i, keep_phi, text, sizeof text);
+        ang_text_clean(text);
         cJSON_AddItemToArray(array, cJSON_CreateString(text));
     }
 }
@@ -154,8 +156,9 @@ static void add_series(cJSON *input, const ang_volume *volume, const ang_load_re
         cJSON_AddBoolToObject(item, "chosen", volume && (int)i == report->chosen);
         cJSON_AddStringToObject(item, "remark", info->remark ? info->remark : "");
         if (keep_phi) {
-            cJSON_AddStringToObject(item, "description", info->description ? info->description : "");
-            cJSON_AddStringToObject(item, "uid", info->uid ? info->uid : "");
+            char text[ANG_NOTES_LINE];
+            cJSON_AddStringToObject(item, "description", clean(info->description, text, sizeof text));
+            cJSON_AddStringToObject(item, "uid", clean(info->uid, text, sizeof text));
         }
         cJSON_AddItemToArray(array, item);
     }
@@ -207,7 +210,10 @@ cJSON *ang_load_report_json(const ang_volume *volume, const ang_load_report *rep
     if (!input) return NULL;
     char name[32];
     ang_load_report_name(report, name);
-    cJSON_AddStringToObject(input, "name", name);
+    if (volume)
+        cJSON_AddStringToObject(input, "name", name);
+    else
+        cJSON_AddNullToObject(input, "name");
     cJSON_AddStringToObject(input, "format", report->format);
     if (volume) add_geometry(input, volume, report);
     add_series(input, volume, report, keep_phi);

@@ -12,14 +12,11 @@
 void ang_load_report_print(FILE *out, const ang_volume *volume, const ang_load_report *report, bool keep_phi);
 
 /* The object "input" of the program's JSON (DESIGN.md, "Command line"), in mm, degrees and HU; null where a value is
- * not known. Free with cJSON_Delete. NULL where memory is out. */
+ * not known or, with `volume` NULL, nothing of the volume. Valid UTF-8. Free with cJSON_Delete. NULL where memory is
+ * out. */
 cJSON *ang_load_report_json(const ang_volume *volume, const ang_load_report *report, bool keep_phi);
 
 /* A name for the input that identifies nobody: hash of the stored values and number of the series. */
 void ang_load_report_name(const ang_load_report *report, char name[32]);
-
-/* A sentence of the report's assumptions or warnings without the file name that it may begin with (file "NAME": ...).
- * `out` holds `size` bytes. */
-void ang_load_report_masked(const char *text, bool keep_phi, char *out, size_t size);
 
 #endif

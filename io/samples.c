@@ -223,7 +223,7 @@ ang_volume *ang_samples_read(const ang_sample_source *source, int threads, ang_l
     if (ok && reading.buffer) volume = ang_volume_create(source->dims, err);
     ok = volume && fill(&reading, volume, report, err);
     if (ok && source->exact_length && gzread(reading.file, reading.buffer, 1) == 1)
-        ang_notes_add(&report->warnings, "file \"%s\": is longer than its voxels; the rest is not used", source->label);
+        ang_notes_add_file(&report->warnings, source->label, "is longer than its voxels; the rest is not used");
     gzclose(reading.file);
     free(reading.buffer);
     if (!ok || !finish(volume, threads, report, err)) {
@@ -248,6 +248,8 @@ bool ang_samples_list(const ang_volume *volume, const char *modality, const char
                               .height = volume->dims[1],
                               .slices = volume->dims[2],
                               .loadable = true};
+    if (!info->description || !info->uid || !info->remark)
+        return ang_fail(err, ANG_LIMIT, "no memory for the list of series");
     snprintf(info->modality, sizeof info->modality, "%s", modality);
     for (int axis = 0; axis < 3; axis++) info->spacing_mm[axis] = ang_volume_spacing(volume, axis);
     report->slice_gap_median_mm = report->slice_gap_min_mm = report->slice_gap_max_mm =

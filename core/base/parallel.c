@@ -4,8 +4,6 @@
 #include <sched.h>
 #include <stdatomic.h>
 
-enum { max_threads = 256 };
-
 typedef struct job {
     size_t count, grain;
     atomic_size_t next;
@@ -19,10 +17,10 @@ typedef struct worker {
 } worker;
 
 int ang_thread_count(int requested) {
-    if (requested > 0) return requested < max_threads ? requested : max_threads;
+    if (requested > 0) return requested < ANG_MAX_THREADS ? requested : ANG_MAX_THREADS;
     cpu_set_t set;
     int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-    return count < 1 ? 1 : count < max_threads ? count : max_threads;
+    return count < 1 ? 1 : count < ANG_MAX_THREADS ? count : ANG_MAX_THREADS;
 }
 
 static void *work(void *argument) {
@@ -44,8 +42,8 @@ void ang_parallel_for(size_t count, size_t grain, int threads, ang_parallel_body
     int wanted = ang_thread_count(threads);
     if ((size_t)wanted > pieces) wanted = (int)pieces;
 
-    pthread_t handles[max_threads];
-    worker workers[max_threads];
+    pthread_t handles[ANG_MAX_THREADS];
+    worker workers[ANG_MAX_THREADS];
     int started = 0;
     for (int i = 1; i < wanted; i++) {
         workers[i] = (worker){&shared, i};

@@ -7,8 +7,11 @@
 /* Works on indices [begin, end); `worker` is in [0, threads) and is never used by two threads at once. */
 typedef void ang_parallel_body(void *context, size_t begin, size_t end, int worker);
 
-/* The number of threads to use: `requested` where positive, else the processors this process may run on. At most 256.
- */
+/* ang_thread_count never gives more: as many slots hold what each worker needs. */
+enum { ANG_MAX_THREADS = 256 };
+
+/* The number of threads to use: `requested` where positive, else the processors this process may run on. At most
+ * ANG_MAX_THREADS. */
 int ang_thread_count(int requested);
 
 /* Calls `body` over [0, count) in pieces of at most `grain` indices, handed out dynamically to

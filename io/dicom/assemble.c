@@ -149,11 +149,6 @@ static bool ensure_mask(ang_volume *volume, ang_error *err) {
     return volume->padding != NULL;
 }
 
-static uint16_t fill_value(const ang_volume *volume) {
-    double stored = nearbyint(ang_volume_stored(volume, -1000));
-    return stored <= 0 ? 0 : stored >= 65535 ? 65535 : (uint16_t)stored;
-}
-
 /* Marks (rule 10) and remaps in one pass, and sums up the range. */
 static bool pass_over(const ang_dicom_stack *stack, remap_job *job, ang_error *err) {
     ang_volume *volume = job->volume;
@@ -200,7 +195,7 @@ static bool finish_values(const ang_dicom_stack *stack, ang_volume *volume, cons
         volume->slope = common.map.slope;
         volume->intercept = common.map.intercept;
         report->rescale_error_hu = common.error_hu;
-        for (size_t i = 0; i < count; i++) ranges[i].fill = fill_value(volume);
+        for (size_t i = 0; i < count; i++) ranges[i].fill = ang_volume_padding_value(volume);
         report->padding_declared = declared > 0;
         remap_job job = {.volume = volume, .decoded = decoded, .common = common, .mark = declared > 0, .range = ranges};
         ok = pass_over(stack, &job, err);
@@ -208,7 +203,8 @@ static bool finish_values(const ang_dicom_stack *stack, ang_volume *volume, cons
         if (ok && declared == 0 && ang_volume_find_padding(volume, &found)) {
             report->padding_found = true;
             report->padding_hu = ang_volume_hu(volume, found);
-            for (size_t i = 0; i < count; i++) ranges[i] = (ang_mask_range){found, found, fill_value(volume)};
+            for (size_t i = 0; i < count; i++)
+                ranges[i] = (ang_mask_range){found, found, ang_volume_padding_value(volume)};
             job.mark = true;
             job.common.same = true; /* the values are under the common map by now */
             ok = pass_over(stack, &job, err);
@@ -268,10 +264,13 @@ static bool resample(const ang_dicom_stack *stack, ang_volume *volume, ang_error
     const ang_dicom_grid *grid = stack->grid;
     int threads = ang_thread_count(stack->threads);
     size_t row = stack->count * (size_t)volume->dims[0], planes = grid->planes, plane = plane_size(volume);
-    uint16_t *values[256] = {0};
-    uint8_t *padding[256] = {0};
-    resample_job job = {
-        .stack = stack, .volume = volume, .fill = fill_value(volume), .values = values, .padding = padding};
+    uint16_t *values[ANG_MAX_THREADS] = {0};
+    uint8_t *padding[ANG_MAX_THREADS] = {0};
+    resample_job job = {.stack = stack,
+                        .volume = volume,
+                        .fill = ang_volume_padding_value(volume),
+                        .values = values,
+                        .padding = padding};
     bool ok = true;
     if (volume->padding) {
         job.mask = ang_alloc((planes * plane + 63) / 64, sizeof *job.mask, "padding mask", err);
@@ -339,6 +338,6 @@ ang_volume *ang_dicom_assemble(const ang_dicom_stack *stack, ang_load_report *re
         free(volume->padding);
         volume->padding = NULL;
     }
-    if (volume->minimum > volume->maximum) volume->minimum = volume->maximum = fill_value(volume);
+    if (volume->minimum > volume->maximum) volume->minimum = volume->maximum = ang_volume_padding_value(volume);
     return volume;
 }

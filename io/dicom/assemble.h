@@ -10,8 +10,8 @@ typedef struct ang_dicom_stack {
     const ang_dicom_slice *slices;
     const size_t *order; /* sorted, no duplicates */
     size_t count;
-    char *const *paths;  /* of slices[...].file */
-    char *const *labels; /* base names of these */
+    char *const *paths;        /* of slices[...].file */
+    const char *const *labels; /* base names of these */
     const ang_dicom_grid *grid;
     int threads;
 } ang_dicom_stack;

@@ -1,12 +1,14 @@
 #include "io/dicom/dicom.h"
 
 #include "core/base/memory.h"
+#include "io/checksum.h"
 #include "io/dicom/assemble.h"
 #include "io/dicom/decode.h"
 #include "io/dicom/folder.h"
 #include "io/dicom/parse.h"
 #include "io/dicom/series.h"
 #include "io/dicom/stored.h"
+#include "io/dicom/terms.h"
 #include "io/formats.h"
 
 #include <math.h>
@@ -24,25 +26,60 @@ bool ang_dicom_probe(const char *path) {
     return found;
 }
 
-/* Two files at one position: do they hold the same picture (rule 6)? */
-static bool same_pixels(void *context, size_t a, size_t b) {
-    const ang_dicom_folder *folder = context;
-    const ang_dicom_slice *left = &folder->slices[a], *right = &folder->slices[b];
-    if (left->rows != right->rows || left->columns != right->columns) return false;
-    ang_dicom_map from = ang_dicom_map_of(left), to = ang_dicom_map_of(right);
-    if (from.slope != to.slope || from.intercept != to.intercept) return false;
-    size_t count = (size_t)left->rows * (size_t)left->columns;
-    uint16_t *pixels = malloc(2 * count * sizeof *pixels);
-    ang_error ignored;
-    bool same =
-        pixels && ang_dicom_decode(folder->paths[left->file], folder->labels[left->file], left, pixels, &ignored) &&
-        ang_dicom_decode(folder->paths[right->file], folder->labels[right->file], right, pixels + count, &ignored) &&
-        memcmp(pixels, pixels + count, count * sizeof *pixels) == 0;
-    free(pixels);
-    return same;
+/* What a first look at a slice's pixels found: in a series of many volumes each slice is compared with many. */
+typedef struct digest {
+    bool known, readable;
+    uint32_t crc;
+} digest;
+
+typedef struct comparison {
+    const ang_dicom_folder *folder;
+    ang_notes *warnings;
+    digest *digests; /* per slice */
+} comparison;
+
+/* Decodes a slice; one that cannot be decoded costs a warning. False where memory is out. */
+static bool read_pixels(comparison *comparison, size_t index, uint16_t *pixels, ang_error *err) {
+    const ang_dicom_folder *folder = comparison->folder;
+    const ang_dicom_slice *slice = &folder->slices[index];
+    const char *label = folder->labels[slice->file];
+    digest *digest = &comparison->digests[index];
+    ang_error why = {0};
+    digest->readable = ang_dicom_decode(folder->paths[slice->file], label, slice, pixels, &why);
+    if (!digest->readable && why.code == ANG_LIMIT) return ang_fail(err, ANG_LIMIT, "%s", why.message);
+    if (!digest->readable) ang_dicom_warn_file(comparison->warnings, label, why.message);
+    size_t bytes = (size_t)slice->rows * (size_t)slice->columns * sizeof *pixels;
+    if (digest->readable) digest->crc = ang_checksum(0, pixels, bytes);
+    digest->known = true;
+    return true;
 }
 
-static void describe(const ang_dicom_slice *slices, const ang_dicom_group *group, int number, ang_series_info *info) {
+/* Two files at one position: do they hold the same picture (rule 6)? */
+static ang_dicom_likeness compare_pixels(void *context, size_t a, size_t b, ang_error *err) {
+    comparison *comparison = context;
+    const ang_dicom_slice *left = &comparison->folder->slices[a], *right = &comparison->folder->slices[b];
+    const digest *one = &comparison->digests[a], *two = &comparison->digests[b];
+    size_t count = (size_t)left->rows * (size_t)left->columns;
+    if (left->rows != right->rows || left->columns != right->columns) return ANG_DICOM_DIFFERENT;
+    uint16_t *pixels = ang_alloc(count, 2 * sizeof *pixels, "two slices", err);
+    bool ok = pixels != NULL;
+    if (ok && !one->known) ok = read_pixels(comparison, a, pixels, err);
+    if (ok && !two->known) ok = read_pixels(comparison, b, pixels + count, err);
+    ang_dicom_map from = ang_dicom_map_of(left), to = ang_dicom_map_of(right);
+    bool same = ok && one->readable && two->readable && one->crc == two->crc && from.slope == to.slope &&
+                from.intercept == to.intercept;
+    if (same) /* probably: now every pixel */
+        ok = read_pixels(comparison, a, pixels, err) && read_pixels(comparison, b, pixels + count, err);
+    same = same && ok && memcmp(pixels, pixels + count, count * sizeof *pixels) == 0;
+    free(pixels);
+    if (!ok) return ANG_DICOM_NOT_COMPARED;
+    if (!one->readable) return ANG_DICOM_FIRST_UNREADABLE;
+    if (!two->readable) return ANG_DICOM_SECOND_UNREADABLE;
+    return same ? ANG_DICOM_SAME : ANG_DICOM_DIFFERENT;
+}
+
+static bool describe(const ang_dicom_slice *slices, const ang_dicom_group *group, int number, ang_series_info *info,
+                     ang_error *err) {
     const ang_dicom_slice *first = &slices[group->order[0]], *last = &slices[group->order[group->count - 1]];
     *info = (ang_series_info){.number = number,
                               .description = strdup(first->description),
@@ -52,13 +89,17 @@ static void describe(const ang_dicom_slice *slices, const ang_dicom_group *group
                               .height = first->rows,
                               .slices = (int)group->count,
                               .loadable = group->loadable};
-    snprintf(info->modality, sizeof info->modality, "%s", first->modality[0] ? first->modality : "?");
+    if (!info->description || !info->uid || !info->remark)
+        return ang_fail(err, ANG_LIMIT, "no memory for the list of series");
+    snprintf(info->modality, sizeof info->modality, "%s",
+             first->modality[0] ? ang_dicom_modality(first->modality) : "?");
     info->spacing_mm[0] = first->has_spacing ? first->column_spacing : 1;
     info->spacing_mm[1] = first->has_spacing ? first->row_spacing : 1;
     info->spacing_mm[2] = first->has_thickness && first->thickness > 0 ? first->thickness : 1;
-    if (group->count > 1 && first->has_position && first->has_orientation)
+    if (group->count > 1 && first->has_position)
         info->spacing_mm[2] =
             ang_vec3_length(ang_vec3_sub(last->position, first->position)) / (double)(group->count - 1);
+    return true;
 }
 
 static bool list_series(const ang_dicom_folder *folder, const ang_dicom_groups *groups, ang_load_report *report,
@@ -67,7 +108,7 @@ static bool list_series(const ang_dicom_folder *folder, const ang_dicom_groups *
     if (!report->series) return false;
     report->series_count = groups->count;
     for (size_t i = 0; i < groups->count; i++)
-        describe(folder->slices, &groups->group[i], (int)i + 1, &report->series[i]);
+        if (!describe(folder->slices, &groups->group[i], (int)i + 1, &report->series[i], err)) return false;
     return true;
 }
 
@@ -76,7 +117,7 @@ static void note_values(const ang_dicom_slice *first, ang_load_report *report) {
     ang_notes *assumptions = &report->assumptions, *warnings = &report->warnings;
     if (strcmp(first->modality, "CT") != 0)
         ang_notes_add(warnings, "modality is %s, not CT: values are not Hounsfield units",
-                      first->modality[0] ? first->modality : "not given");
+                      first->modality[0] ? ang_dicom_modality(first->modality) : "not given");
     if (!first->has_slope && !first->has_intercept)
         ang_notes_add(assumptions, "RescaleSlope and RescaleIntercept are missing: 1 and 0 are taken");
     else if (!first->has_slope || first->slope == 0)
@@ -173,9 +214,8 @@ static ang_volume *build(const ang_dicom_folder *folder, ang_dicom_group *group,
             if (volume) {
                 take_grid(&grid, first, report);
                 report->slices_read = (int)count;
-                for (size_t i = 0; i < assumptions.count; i++)
-                    ang_notes_add(&report->assumptions, "%s", assumptions.text[i]);
-                for (size_t i = 0; i < warnings.count; i++) ang_notes_add(&report->warnings, "%s", warnings.text[i]);
+                ang_notes_append(&report->assumptions, &assumptions);
+                ang_notes_append(&report->warnings, &warnings);
             } else {
                 bool any = false;
                 for (size_t i = 0; i < count; i++) any = any || failed[i];
@@ -212,9 +252,12 @@ static ang_volume *load_folder(const ang_dicom_folder *folder, const char *path,
         ang_notes_add(&report->assumptions, "passed over what is no DICOM image: %zu of %zu files", folder->foreign,
                       folder->count);
     ang_dicom_groups groups;
-    if (!ang_dicom_group_slices(folder->slices, folder->slice_count, same_pixels, (void *)(uintptr_t)folder, &groups,
-                                err))
-        return NULL;
+    comparison comparison = {folder, &report->warnings, NULL};
+    comparison.digests = ang_alloc(folder->slice_count, sizeof *comparison.digests, "list of slices", err);
+    bool grouped = comparison.digests && ang_dicom_group_slices(folder->slices, folder->slice_count, compare_pixels,
+                                                                &comparison, &groups, err);
+    free(comparison.digests);
+    if (!grouped) return NULL;
     ang_volume *volume = NULL;
     size_t chosen = 0;
     ang_error why = {0};
@@ -234,8 +277,8 @@ static ang_volume *load_folder(const ang_dicom_folder *folder, const char *path,
                           "series %zu of %zu is shown: the largest %s volume; --series picks another", chosen + 1,
                           groups.count, strcmp(first->modality, "CT") == 0 ? "CT" : "image");
         if (group->duplicates > 0)
-            ang_notes_add(&report->assumptions, "%d slices with the same position and pixels as another were dropped",
-                          group->duplicates);
+            ang_notes_add(&report->assumptions, "%d slices with the same %s and pixels as another were dropped",
+                          group->duplicates, first->has_position ? "position" : "InstanceNumber");
         if (group->phases > 1)
             ang_notes_add(&report->assumptions, "the series holds %d volumes at the same positions: one is shown",
                           group->phases);

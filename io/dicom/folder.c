@@ -3,6 +3,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "io/dicom/header.h"
+#include "io/formats.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -26,7 +27,7 @@ void ang_dicom_warn_file(ang_notes *notes, const char *label, const char *messag
     size_t length = strlen(label);
     if (strncmp(message, label, length) == 0 && message[length] == ':') message += length + 1;
     while (*message == ' ') message++;
-    ang_notes_add(notes, "file \"%s\": %s", label, message);
+    ang_notes_add_file(notes, label, "%s", message);
 }
 
 static bool add_path(ang_dicom_folder *folder, size_t *capacity, char *path, ang_error *err) {
@@ -110,9 +111,10 @@ static void read_headers(void *context, size_t begin, size_t end, int worker) {
 static void sum_up(ang_dicom_folder *folder, header_job *job, ang_notes *warnings) {
     for (size_t i = 0; i < folder->count; i++) {
         if (job->found[i] == ANG_DICOM_FOREIGN) folder->foreign++;
-        if (job->found[i] == ANG_DICOM_BROKEN && job->errors[i]) {
-            if (folder->broken++ == 0) snprintf(folder->first_error, sizeof folder->first_error, "%s", job->errors[i]);
-            if (folder->broken <= most_warnings) ang_dicom_warn_file(warnings, folder->labels[i], job->errors[i]);
+        if (job->found[i] == ANG_DICOM_BROKEN) {
+            const char *why = job->errors[i] ? job->errors[i] : "cannot be read: no memory";
+            if (folder->broken++ == 0) snprintf(folder->first_error, sizeof folder->first_error, "%s", why);
+            if (folder->broken <= most_warnings) ang_dicom_warn_file(warnings, folder->labels[i], why);
         }
         if (job->found[i] == ANG_DICOM_FOUND) folder->slices[folder->slice_count++] = job->slices[i];
     }
@@ -135,10 +137,7 @@ bool ang_dicom_read_folder(const char *path, int threads, ang_dicom_folder *fold
     }
     qsort(folder->paths, folder->count, sizeof *folder->paths, compare_paths);
     folder->labels = ang_alloc(folder->count, sizeof *folder->labels, "list of files", err);
-    for (size_t i = 0; folder->labels && i < folder->count; i++) {
-        char *slash = strrchr(folder->paths[i], '/');
-        folder->labels[i] = slash ? slash + 1 : folder->paths[i];
-    }
+    for (size_t i = 0; folder->labels && i < folder->count; i++) folder->labels[i] = ang_base_name(folder->paths[i]);
     int workers = ang_thread_count(threads);
     header_job job = {.folder = folder, .progress = progress};
     job.readers = ang_alloc((size_t)workers, sizeof *job.readers, "headers", err);

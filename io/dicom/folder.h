@@ -9,8 +9,8 @@
 
 /* Files and the slices found in them. Owns everything; free with ang_dicom_folder_clear. */
 typedef struct ang_dicom_folder {
-    char **paths;  /* sorted */
-    char **labels; /* base name of each, for messages */
+    char **paths;        /* sorted */
+    const char **labels; /* base name of each, for messages */
     size_t count;
     ang_dicom_slice *slices; /* of the DICOM files that can be read, in order of path */
     size_t slice_count;
@@ -26,7 +26,7 @@ bool ang_dicom_read_folder(const char *path, int threads, ang_dicom_folder *fold
                            const ang_progress *progress, ang_error *err);
 void ang_dicom_folder_clear(ang_dicom_folder *folder);
 
-/* Adds `file "LABEL": message` to `notes`; `message` may begin with the label already. */
+/* Adds `message` about the file `label` to `notes`; errors begin with "LABEL: ", which the note leaves out. */
 void ang_dicom_warn_file(ang_notes *notes, const char *label, const char *message);
 
 #endif

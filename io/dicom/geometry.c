@@ -40,7 +40,7 @@ static int compare_slices(const void *left, const void *right, void *context) {
     return i < j ? -1 : i > j;
 }
 
-static ang_dicom_slice with_defaults(const ang_dicom_slice *slice) {
+ang_dicom_slice ang_dicom_with_defaults(const ang_dicom_slice *slice) {
     ang_dicom_slice out = *slice;
     if (!out.has_orientation) {
         out.row = (ang_vec3){1, 0, 0};
@@ -59,7 +59,7 @@ static bool all_have_positions(const ang_dicom_slice *slices, const size_t *orde
 
 void ang_dicom_sort(const ang_dicom_slice *slices, size_t *order, size_t count, ang_notes *assumptions) {
     if (count == 0) return;
-    ang_dicom_slice first = with_defaults(&slices[order[0]]);
+    ang_dicom_slice first = ang_dicom_with_defaults(&slices[order[0]]);
     sorting sorting = {slices, ang_dicom_normal(&first), all_have_positions(slices, order, count)};
     if (!sorting.positions && assumptions && count > 1)
         ang_notes_add(assumptions, "ImagePositionPatient is missing: slices are in the order of InstanceNumber");
@@ -185,7 +185,8 @@ static void note_header(const ang_dicom_slice *slice, ang_notes *warnings) {
     if (!slice->has_orientation)
         ang_notes_add(warnings, "(0020,0037) ImageOrientationPatient is missing: axial slices are assumed");
     if (!slice->has_spacing)
-        ang_notes_add(warnings, "(0028,0030) PixelSpacing is missing: 1 mm is assumed, do not measure");
+        ang_notes_add(warnings, "(0028,0030) PixelSpacing is %s: 1 mm is assumed, do not measure",
+                      slice->bad_spacing ? "invalid" : "missing");
     if (slice->has_orientation && fabs(ang_vec3_dot(ang_vec3_unit(slice->row), ang_vec3_unit(slice->column))) > 1e-3)
         ang_notes_add(warnings, "(0020,0037) ImageOrientationPatient: row and column are not at right angles");
 }
@@ -210,7 +211,11 @@ static bool stack_slices(const ang_dicom_slice *slices, const size_t *order, siz
     for (size_t i = 0; i < count; i++) s[i] = ang_dicom_along(&slices[order[i]], normal);
     for (size_t i = 0; i + 1 < count; i++) {
         gap[i] = s[i + 1] - s[i];
-        if (!(gap[i] > 0)) return ang_fail(err, ANG_GEOMETRY, "two slices of the series lie at one position");
+        if (!(gap[i] > 0))
+            return ang_fail(err, ANG_GEOMETRY,
+                            "(0020,0032) ImagePositionPatient: two slices, InstanceNumber %d and %d, lie at one "
+                            "position, %.3f mm along the normal: take one of them out of the folder",
+                            slices[order[i]].instance_number, slices[order[i + 1]].instance_number, s[i]);
     }
     bool irregular;
     if (!judge_gaps(grid, gap, count - 1, scratch, &irregular, err)) return false;
@@ -244,7 +249,7 @@ bool ang_dicom_geometry(const ang_dicom_slice *slices, const size_t *order, size
                         ang_notes *assumptions, ang_notes *warnings, ang_error *err) {
     *grid = (ang_dicom_grid){0};
     if (count == 0) return ang_fail(err, ANG_GEOMETRY, "the series has no slices");
-    ang_dicom_slice first = with_defaults(&slices[order[0]]);
+    ang_dicom_slice first = ang_dicom_with_defaults(&slices[order[0]]);
     note_header(&slices[order[0]], warnings);
     ang_vec3 normal = ang_dicom_normal(&first);
     if (ang_vec3_length(normal) == 0)

@@ -25,6 +25,9 @@ typedef struct ang_dicom_grid {
 
 void ang_dicom_grid_clear(ang_dicom_grid *grid);
 
+/* The slice with what geometry takes where the header leaves it out: axial directions, pixels of 1 mm. */
+ang_dicom_slice ang_dicom_with_defaults(const ang_dicom_slice *slice);
+
 /* row x column, of unit length; zero where the directions are degenerate. */
 ang_vec3 ang_dicom_normal(const ang_dicom_slice *slice);
 

@@ -1,6 +1,8 @@
 #include "io/dicom/header.h"
 
 #include "io/dicom/stream.h"
+#include "io/dicom/terms.h"
+#include "io/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,6 +16,7 @@ typedef struct seen {
     bool rows, columns, bits_allocated, bits_stored, high_bit, representation;
     bool pixels, float_pixels, functional_groups;
     uint32_t pixel_length;
+    char character_set[65];
     char acquisition_date[17], content_date[17], acquisition_time[21], content_time[21];
 } seen;
 
@@ -52,8 +55,23 @@ static bool word(ang_dicom_reader *reader, const ang_dicom_element *element, int
     return true;
 }
 
+/* PS3.3 C.12.1.1.2: Latin-1 is taken over; of other sets than UTF-8 what is not ASCII becomes '?'. */
+static void take_description(ang_dicom_reader *r, const ang_dicom_element *e, const char *set, ang_dicom_slice *s) {
+    char text[sizeof s->description];
+    bool latin1 = strcmp(set, "ISO_IR 100") == 0 || strcmp(set, "ISO 2022 IR 100") == 0;
+    ang_dicom_text(r, e, text, sizeof text);
+    if (latin1)
+        ang_text_from_latin1(text, s->description, sizeof s->description);
+    else
+        snprintf(s->description, sizeof s->description, "%s", text);
+    ang_text_clean(s->description);
+}
+
 static void take_identity(ang_dicom_reader *r, const ang_dicom_element *e, ang_dicom_slice *s, seen *seen) {
     switch (e->tag) {
+    case TAG(0x0008, 0x0005):
+        ang_dicom_text(r, e, seen->character_set, sizeof seen->character_set);
+        break;
     case TAG(0x0008, 0x0008):
         ang_dicom_text(r, e, s->image_type, sizeof s->image_type);
         break;
@@ -76,7 +94,7 @@ static void take_identity(ang_dicom_reader *r, const ang_dicom_element *e, ang_d
         ang_dicom_text(r, e, s->modality, sizeof s->modality);
         break;
     case TAG(0x0008, 0x103E):
-        ang_dicom_text(r, e, s->description, sizeof s->description);
+        take_description(r, e, seen->character_set, s);
         break;
     case TAG(0x0020, 0x000E):
         ang_dicom_text(r, e, s->series_uid, sizeof s->series_uid);
@@ -123,8 +141,9 @@ static void take_geometry(ang_dicom_reader *r, const ang_dicom_element *e, ang_d
         }
         break;
     case TAG(0x0028, 0x0030):
-        if (ang_dicom_numbers(r, e, v, 2) == 2 && v[0] > 0 && v[1] > 0) {
-            s->has_spacing = true;
+        s->has_spacing = ang_dicom_numbers(r, e, v, 2) == 2 && v[0] > 0 && v[1] > 0;
+        s->bad_spacing = !s->has_spacing && e->length > 0;
+        if (s->has_spacing) {
             s->row_spacing = v[0];
             s->column_spacing = v[1];
         }
@@ -213,7 +232,8 @@ static bool starts(const char *text, const char *prefix) { return strncmp(text, 
 
 /* True where the file is an image of pixels; else says what it is instead. */
 static bool check_kind(ang_dicom_slice *s, const seen *seen) {
-    const char *what = s->modality[0] ? s->modality : "unknown kind";
+    const char *what = ang_dicom_modality(s->modality);
+    if (strcmp(what, "other") == 0) what = ang_dicom_class_name(s->sop_class);
     if (seen->functional_groups || s->frames > 1) {
         s->image = true;
         snprintf(s->refusal, sizeof s->refusal, "multi-frame image (%d frames): not read yet", s->frames);
@@ -326,7 +346,8 @@ ang_dicom_found ang_dicom_header(const char *path, const char *label, ang_dicom_
     }
     size_t file = slice->file;
     *slice = (ang_dicom_slice){.file = file, .samples = 1, .frames = 1};
-    snprintf(slice->transfer_syntax, sizeof slice->transfer_syntax, "%s", reader->transfer_syntax);
+    snprintf(slice->transfer_syntax, sizeof slice->transfer_syntax, "%s",
+             ang_dicom_is_transfer_syntax(reader->transfer_syntax) ? reader->transfer_syntax : "other");
     seen seen = {0};
     size_t count = 0;
     for (ang_dicom_element element; ang_dicom_next(reader, &element); count++) {

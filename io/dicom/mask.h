@@ -6,14 +6,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Compiles a loop over voxels for wide vectors too, chosen when the program starts: plain x86-64 has no instruction for
- * the lesser of two unsigned words. Left out under sanitizers, which cannot stand the early choice. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define ANG_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define ANG_WIDE
-#endif
-
 /* Values first to last, both included, are padding and become `fill`. */
 typedef struct ang_mask_range {
     uint16_t first, last, fill;

@@ -2,6 +2,7 @@
 
 #include "core/base/memory.h"
 #include "io/dicom/geometry.h"
+#include "io/dicom/terms.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -110,45 +111,80 @@ static void phases_by_rank(const size_t *place, size_t count, int *phase) {
     for (size_t i = 0; i < count; i++) phase[i] = i > 0 && place[i] == place[i - 1] ? phase[i - 1] + 1 : 0;
 }
 
-/* Drops duplicates from a sorted group and numbers positions in `place`; returns how many volumes share them. */
-static int drop_duplicates(const ang_dicom_slice *slices, ang_dicom_group *group, ang_dicom_same_pixels *same,
-                           void *context, size_t *place) {
-    size_t kept = 0;
-    int phases = 1;
-    ang_vec3 normal = ang_dicom_normal(&slices[group->order[0]]);
-    for (size_t i = 0; i < group->count; i++) {
-        size_t slice = group->order[i];
-        double s = ang_dicom_along(&slices[slice], normal);
-        size_t first = kept; /* of the slices kept at this position */
-        bool duplicate = false;
-        while (first > 0 && s - ang_dicom_along(&slices[group->order[first - 1]], normal) <= same_position_mm) first--;
-        for (size_t j = first; j < kept && !duplicate; j++) duplicate = same && same(context, group->order[j], slice);
-        if (duplicate) {
+/* Whether two neighbours of a sorted group may be one slice twice. */
+static bool at_one_place(const ang_dicom_slice *a, const ang_dicom_slice *b, ang_vec3 normal) {
+    if (a->has_position) return ang_dicom_along(b, normal) - ang_dicom_along(a, normal) <= same_position_mm;
+    return a->has_instance_number && b->has_instance_number && a->instance_number == b->instance_number;
+}
+
+/* Compares slice `slice` with those kept at its place, from `first` on. Takes unreadable ones among them out; `stays`
+ * says whether the slice itself stays. */
+static bool compare_at_place(ang_dicom_group *group, size_t first, size_t *kept, size_t slice,
+                             ang_dicom_compare *compare, void *context, bool *stays, ang_error *err) {
+    *stays = true;
+    for (size_t j = first; j < *kept && *stays;) {
+        switch (compare(context, group->order[j], slice, err)) {
+        case ANG_DICOM_SAME:
             group->duplicates++;
-            continue;
+            *stays = false;
+            break;
+        case ANG_DICOM_DIFFERENT:
+            j++;
+            break;
+        case ANG_DICOM_FIRST_UNREADABLE:
+            memmove(&group->order[j], &group->order[j + 1], (*kept - j - 1) * sizeof *group->order);
+            --*kept;
+            break;
+        case ANG_DICOM_SECOND_UNREADABLE:
+            *stays = false;
+            break;
+        case ANG_DICOM_NOT_COMPARED:
+            return false;
         }
+    }
+    return true;
+}
+
+/* Drops duplicates and unreadable doubles from a sorted group and numbers the places that are left in `place`; `phases`
+ * becomes how many volumes share them. */
+static bool drop_duplicates(const ang_dicom_slice *slices, ang_dicom_group *group, ang_vec3 normal,
+                            ang_dicom_compare *compare, void *context, size_t *place, int *phases, ang_error *err) {
+    size_t kept = 0;
+    for (size_t i = 0; i < group->count; i++) {
+        size_t slice = group->order[i], first = kept; /* `first`: of the slices kept at this place */
+        bool stays = true;
+        while (first > 0 && at_one_place(&slices[group->order[first - 1]], &slices[slice], normal)) first--;
+        if (compare && !compare_at_place(group, first, &kept, slice, compare, context, &stays, err)) return false;
+        if (!stays) continue;
         place[kept] = first < kept ? place[kept - 1] : kept ? place[kept - 1] + 1 : 0;
         group->order[kept++] = slice;
-        if ((int)(kept - first) > phases) phases = (int)(kept - first);
     }
     group->count = kept;
-    return phases;
+    *phases = 1;
+    int here = 1;
+    for (size_t i = 1; i < kept; i++) {
+        here = place[i] == place[i - 1] ? here + 1 : 1;
+        if (here > *phases) *phases = here;
+    }
+    return true;
 }
 
 /* Sorts group `index`, drops its duplicates and splits it where positions repeat with other pixels (rule 6). */
 static bool resolve_positions(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_t index,
-                              ang_dicom_same_pixels *same, void *context, ang_error *err) {
+                              ang_dicom_compare *compare, void *context, ang_error *err) {
     ang_dicom_group *group = &groups->group[index];
     ang_dicom_sort(slices, group->order, group->count, NULL);
-    const ang_dicom_slice *first = &slices[group->order[0]];
-    if (!first->image || first->refusal[0] || !first->has_position || !first->has_orientation) return true;
+    const ang_dicom_slice first = ang_dicom_with_defaults(&slices[group->order[0]]);
+    ang_vec3 normal = ang_dicom_normal(&first);
+    if (!first.image || first.refusal[0] || ang_vec3_length(normal) == 0) return true;
 
     size_t count = group->count;
     size_t *place = ang_alloc(count, sizeof *place, "positions", err);
     int *phase = place ? ang_alloc(count, sizeof *phase, "phases", err) : NULL;
-    bool ok = phase != NULL;
-    int phases = ok ? drop_duplicates(slices, group, same, context, place) : 1;
-    if (phases > 1) {
+    int phases = 1;
+    bool ok = phase && drop_duplicates(slices, group, normal, compare, context, place, &phases, err);
+    /* One InstanceNumber twice, without positions, does not tell where a second volume would lie. */
+    if (ok && phases > 1 && first.has_position) {
         int kind = 0;
         while (kind < phase_keys && !phases_by_key(slices, group, place, phases, kind, phase)) kind++;
         if (kind == phase_keys) phases_by_rank(place, group->count, phase);
@@ -210,8 +246,8 @@ static void judge(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_
     } else if (strcmp(kind, "LOCALIZER") == 0) {
         snprintf(group->remark, sizeof group->remark, "localizer");
     } else if (group->derived && (capture || !first->has_position)) {
-        snprintf(group->remark, sizeof group->remark, "derived summary%s%.60s%s", kind[0] ? " (" : "", kind,
-                 kind[0] ? ")" : "");
+        snprintf(group->remark, sizeof group->remark, "derived summary%s%s%s", kind[0] ? " (" : "",
+                 kind[0] ? ang_dicom_image_kind(kind) : "", kind[0] ? ")" : "");
     } else if (group->count == 1 && has_larger_sibling(slices, groups, index)) {
         snprintf(group->remark, sizeof group->remark, "localizer: a single slice that differs from its series");
     } else if (group->count == 1 && !first->has_position) {
@@ -288,7 +324,7 @@ static bool split_series(const ang_dicom_slice *slices, const size_t *order, siz
     return true;
 }
 
-bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dicom_same_pixels *same, void *context,
+bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dicom_compare *compare, void *context,
                             ang_dicom_groups *groups, ang_error *err) {
     *groups = (ang_dicom_groups){0};
     if (count == 0) return true;
@@ -305,7 +341,7 @@ bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dic
     }
     free(order);
     size_t before = groups->count;
-    for (size_t i = 0; ok && i < before; i++) ok = resolve_positions(slices, groups, i, same, context, err);
+    for (size_t i = 0; ok && i < before; i++) ok = resolve_positions(slices, groups, i, compare, context, err);
     ok = ok && list_groups(slices, groups, err);
     for (size_t i = 0; ok && i < groups->count; i++) judge(slices, groups, i);
     if (!ok) ang_dicom_groups_clear(groups);

@@ -9,9 +9,9 @@
 
 /* Slices that may be one volume, or else what they are. */
 typedef struct ang_dicom_group {
-    size_t *order; /* indices into the slices, sorted by position; duplicates left out */
+    size_t *order; /* indices into the slices, sorted by position; duplicates and unreadable doubles left out */
     size_t count;
-    int duplicates; /* dropped: same position, same pixels */
+    int duplicates; /* dropped: same position (same InstanceNumber where positions are missing), same pixels */
     int phases;     /* > 1: one of several volumes at the same positions */
     bool loadable;
     bool derived;     /* ImageType DERIVED\SECONDARY or a secondary capture: loaded only where nothing else is */
@@ -24,11 +24,22 @@ typedef struct ang_dicom_groups {
     size_t count;
 } ang_dicom_groups;
 
-/* Whether slices `a` and `b` (indices) hold the same pixels. */
-typedef bool ang_dicom_same_pixels(void *context, size_t a, size_t b);
+/* How the pixels of two slices compare. */
+typedef enum ang_dicom_likeness {
+    ANG_DICOM_SAME,
+    ANG_DICOM_DIFFERENT,
+    ANG_DICOM_FIRST_UNREADABLE,  /* the first cannot be decoded; nothing is said of the second */
+    ANG_DICOM_SECOND_UNREADABLE, /* the second cannot be decoded, the first can */
+    ANG_DICOM_NOT_COMPARED,      /* no memory: `err` says so */
+} ang_dicom_likeness;
 
-/* Groups `count` slices. `same` is asked only about slices at one position; NULL: never the same. ANG_LIMIT. */
-bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dicom_same_pixels *same, void *context,
+/* Compares slices `a` and `b` (indices). It keeps itself what is to be said of one that is unreadable: that slice is
+ * left out. */
+typedef ang_dicom_likeness ang_dicom_compare(void *context, size_t a, size_t b, ang_error *err);
+
+/* Groups `count` slices. `compare` is asked only about slices at one position, or of one InstanceNumber where positions
+ * are missing; NULL: all are different. ANG_LIMIT. */
+bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dicom_compare *compare, void *context,
                             ang_dicom_groups *groups, ang_error *err);
 void ang_dicom_groups_clear(ang_dicom_groups *groups);
 

@@ -25,8 +25,9 @@ typedef struct ang_dicom_slice {
     char refusal[96]; /* why it cannot be part of a volume; empty where it can */
 
     char sop_class[65], series_uid[65], transfer_syntax[65];
-    char modality[17], description[65];
-    char image_type[129]; /* values separated by '\\' */
+    char modality[17];
+    char description[257]; /* UTF-8 */
+    char image_type[129];  /* values separated by '\\' */
     char photometric[17];
     char stack_id[17];
     char acquisition_time[41], content_time[41]; /* date and time, or only one of them */
@@ -39,6 +40,7 @@ typedef struct ang_dicom_slice {
     bool is_signed, lossy;
 
     bool has_position, has_orientation, has_spacing, has_thickness, has_slice_distance, has_tilt;
+    bool bad_spacing;      /* PixelSpacing is there, but not two numbers > 0; has_spacing is false */
     ang_vec3 position;     /* mm, LPS: centre of the first voxel */
     ang_vec3 row, column;  /* direction of rising column index, of rising row index */
     double row_spacing;    /* mm between rows (dy): the first value of PixelSpacing */

@@ -10,9 +10,9 @@
 #include "io/dicom/decode.h"
 #include "io/dicom/geometry.h"
 #include "io/dicom/mask.h"
-#include "io/dicom/series.h"
 #include "io/dicom/stored.h"
 #include "io/dicom/stream.h"
+#include "tests/io/slice_record.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,36 +21,6 @@
 #include <zlib.h>
 
 enum { most = 64 };
-
-/* An axial CT slice at `z` mm. */
-static ang_dicom_slice slice_at(double z, int instance) {
-    ang_dicom_slice s = {.image = true,
-                         .modality = "CT",
-                         .series_uid = "1.2.3",
-                         .image_type = "ORIGINAL\\PRIMARY\\AXIAL",
-                         .samples = 1,
-                         .frames = 1,
-                         .rows = 4,
-                         .columns = 6,
-                         .bits_allocated = 16,
-                         .bits_stored = 12,
-                         .high_bit = 11,
-                         .has_position = true,
-                         .has_orientation = true,
-                         .has_spacing = true,
-                         .has_instance_number = true,
-                         .instance_number = instance,
-                         .position = {-10, -20, z},
-                         .row = {1, 0, 0},
-                         .column = {0, 1, 0},
-                         .row_spacing = 0.5,
-                         .column_spacing = 0.25,
-                         .has_slope = true,
-                         .has_intercept = true,
-                         .slope = 1,
-                         .intercept = -1024};
-    return s;
-}
 
 typedef struct grid_case {
     ang_dicom_slice slices[most];
@@ -230,112 +200,17 @@ static void test_absurd_distances(void **state) {
     clear_grid(&c);
 }
 
-/* Slices of equal thickness stand for slices with the same pixels. */
-static bool same_by_tag(void *context, size_t a, size_t b) {
-    const ang_dicom_slice *slices = context;
-    return slices[a].thickness == slices[b].thickness;
-}
-
-static void test_grouping(void **state) {
+static void test_one_position_twice(void **state) {
     (void)state;
-    ang_dicom_slice s[16];
-    size_t n = 0;
-    for (int i = 0; i < 5; i++) s[n++] = slice_at(5 - i, i);
-    s[n] = slice_at(0, 9); /* a scout in the same series */
-    s[n].row = (ang_vec3){0, 1, 0};
-    s[n++].column = (ang_vec3){0, 0, -1};
-    for (int i = 0; i < 3; i++) { /* another series */
-        s[n] = slice_at(i, i);
-        strcpy(s[n++].series_uid, "1.2.4");
-    }
-    s[n] = slice_at(0, 1);
-    strcpy(s[n].series_uid, "1.2.5");
-    strcpy(s[n++].image_type, "ORIGINAL\\PRIMARY\\LOCALIZER");
-    s[n] = slice_at(6, 10); /* the vendor's fourth value does not split a volume */
-    strcpy(s[n++].image_type, "ORIGINAL\\PRIMARY\\AXIAL\\ADD");
-    for (size_t i = 0; i < n; i++) s[i].file = i;
-
-    ang_dicom_groups groups;
-    ang_error err = {0};
-    assert_true(ang_dicom_group_slices(s, n, NULL, NULL, &groups, &err));
-    assert_int_equal(groups.count, 4);
-    assert_int_equal(groups.group[0].count, 6);
-    assert_true(groups.group[0].loadable);
-    assert_int_equal(groups.group[1].count, 1);
-    assert_false(groups.group[1].loadable);
-    assert_non_null(strstr(groups.group[1].remark, "localizer"));
-    assert_int_equal(groups.group[2].count, 3);
-    assert_false(groups.group[3].loadable);
-    assert_string_equal(groups.group[3].remark, "localizer");
-
-    size_t chosen;
-    assert_true(ang_dicom_choose(s, &groups, NULL, &chosen, &err));
-    assert_int_equal(chosen, 0);
-    assert_true(ang_dicom_choose(s, &groups, "3", &chosen, &err));
-    assert_int_equal(chosen, 2);
-    assert_true(ang_dicom_choose(s, &groups, ".2.4", &chosen, &err));
-    assert_int_equal(chosen, 2);
-    assert_false(ang_dicom_choose(s, &groups, "4", &chosen, &err));
-    assert_int_equal(err.code, ANG_INPUT);
-    assert_false(ang_dicom_choose(s, &groups, "17", &chosen, &err));
-    ang_dicom_groups_clear(&groups);
-}
-
-static void test_ct_wins(void **state) {
-    (void)state;
-    ang_dicom_slice s[9];
-    for (int i = 0; i < 9; i++) {
-        s[i] = slice_at(i, i);
-        if (i < 6) {
-            strcpy(s[i].series_uid, "1.2.1");
-            strcpy(s[i].modality, "MR");
-        }
-    }
-    ang_dicom_groups groups;
-    ang_error err = {0};
-    size_t chosen;
-    assert_true(ang_dicom_group_slices(s, 9, NULL, NULL, &groups, &err));
-    assert_true(ang_dicom_choose(s, &groups, NULL, &chosen, &err));
-    assert_int_equal(groups.group[chosen].count, 3);
-    ang_dicom_groups_clear(&groups);
-}
-
-static void test_duplicates_and_phases(void **state) {
-    (void)state;
-    ang_dicom_slice s[8];
-    for (int i = 0; i < 8; i++) {
-        s[i] = slice_at(i % 4 + (i >= 4 ? 5e-4 : 0), i);
-        s[i].thickness = i % 4;
-        s[i].file = (size_t)i;
-    }
-    ang_dicom_groups groups;
-    ang_error err = {0};
-    assert_true(ang_dicom_group_slices(s, 8, same_by_tag, s, &groups, &err));
-    assert_int_equal(groups.count, 1);
-    assert_int_equal(groups.group[0].count, 4);
-    assert_int_equal(groups.group[0].duplicates, 4);
-    ang_dicom_groups_clear(&groups);
-
-    for (int i = 0; i < 8; i++) { /* other pixels, and an acquisition time that tells them apart */
-        s[i].thickness = i;
-        snprintf(s[i].acquisition_time, sizeof s[i].acquisition_time, "1200%02d", i >= 4 ? 30 : 0);
-        s[i].instance_number = 100 - i;
-    }
-    assert_true(ang_dicom_group_slices(s, 8, same_by_tag, s, &groups, &err));
-    assert_int_equal(groups.count, 2);
-    for (size_t g = 0; g < 2; g++) {
-        assert_int_equal(groups.group[g].count, 4);
-        assert_int_equal(groups.group[g].phases, 2);
-        bool late = groups.group[g].order[0] >= 4;
-        for (int i = 0; i < 4; i++) assert_int_equal(groups.group[g].order[i] >= 4, late);
-    }
-    ang_dicom_groups_clear(&groups);
-
-    for (int i = 0; i < 8; i++) s[i].acquisition_time[0] = 0; /* nothing tells: by instance number */
-    assert_true(ang_dicom_group_slices(s, 8, same_by_tag, s, &groups, &err));
-    assert_int_equal(groups.count, 2);
-    assert_int_equal(groups.group[0].count, 4);
-    ang_dicom_groups_clear(&groups);
+    grid_case c = {.count = 3};
+    for (int i = 0; i < 3; i++) c.slices[i] = slice_at(i == 2 ? 1 : i, 40 + i);
+    make_grid(&c);
+    assert_false(c.ok);
+    assert_int_equal(c.err.code, ANG_GEOMETRY);
+    assert_non_null(strstr(c.err.message, "(0020,0032) ImagePositionPatient"));
+    assert_non_null(strstr(c.err.message, "41 and 42"));
+    assert_non_null(strstr(c.err.message, "out of the folder"));
+    clear_grid(&c);
 }
 
 static void test_convert(void **state) {
@@ -540,9 +415,7 @@ int main(void) {
         cmocka_unit_test(test_tilt_is_shear),
         cmocka_unit_test(test_degenerate_orientation),
         cmocka_unit_test(test_absurd_distances),
-        cmocka_unit_test(test_grouping),
-        cmocka_unit_test(test_ct_wins),
-        cmocka_unit_test(test_duplicates_and_phases),
+        cmocka_unit_test(test_one_position_twice),
         cmocka_unit_test(test_convert),
         cmocka_unit_test(test_padding_value),
         cmocka_unit_test(test_rescale),

@@ -1,105 +1,6 @@
 /* Loading small files written here, against what was written into them. */
-#include "tests/io/loading.h"
-
 #define FOLDER ANG_TEST_TMP "/load-files"
-
-/* ---- small DICOM files ---- */
-
-typedef struct file {
-    uint8_t bytes[8192];
-    size_t size;
-} file;
-
-static void put(file *f, uint16_t group, uint16_t element, const char *vr, const void *value, size_t length) {
-    uint8_t head[12] = {(uint8_t)group,          (uint8_t)(group >> 8), (uint8_t)element,
-                        (uint8_t)(element >> 8), (uint8_t)vr[0],        (uint8_t)vr[1]};
-    size_t padded = length + length % 2, head_size = 8;
-    if (vr[0] == 'O') {
-        head[8] = (uint8_t)padded;
-        head[9] = (uint8_t)(padded >> 8);
-        head_size = 12;
-    } else {
-        head[6] = (uint8_t)padded;
-        head[7] = (uint8_t)(padded >> 8);
-    }
-    memcpy(f->bytes + f->size, head, head_size);
-    f->size += head_size;
-    memcpy(f->bytes + f->size, value, length);
-    if (length % 2) f->bytes[f->size + length] = ' ';
-    f->size += padded;
-}
-
-static void put_text(file *f, uint16_t group, uint16_t element, const char *vr, const char *text) {
-    put(f, group, element, vr, text, strlen(text));
-}
-
-static void put_word(file *f, uint16_t group, uint16_t element, int value) {
-    uint8_t bytes[2] = {(uint8_t)value, (uint8_t)(value >> 8)};
-    put(f, group, element, "US", bytes, 2);
-}
-
-enum { width = 5, height = 3 };
-
-/* What small() writes; zero means the usual. */
-typedef struct form {
-    double z;
-    int instance;
-    const char *slope, *intercept, *photometric;
-    bool no_rows, is_signed, has_padding, cut;
-    int padding;
-    uint16_t pixels[width * height];
-} form;
-
-static void small(const char *name, const form *form) {
-    file f = {.size = 132};
-    memcpy(f.bytes + 128, "DICM", 4);
-    char text[64];
-    put_text(&f, 2, 0x10, "UI", "1.2.840.10008.1.2.1");
-    put_text(&f, 8, 0x08, "CS", "ORIGINAL\\PRIMARY\\AXIAL");
-    put_text(&f, 8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.2");
-    put_text(&f, 8, 0x60, "CS", "CT");
-    put_text(&f, 8, 0x103E, "LO", "JOHN DOE HEAD");
-    put_text(&f, 0x20, 0x0E, "UI", "1.2.3.4");
-    snprintf(text, sizeof text, "%d", form->instance);
-    put_text(&f, 0x20, 0x13, "IS", text);
-    snprintf(text, sizeof text, "-1\\-2\\%g", form->z);
-    put_text(&f, 0x20, 0x32, "DS", text);
-    put_text(&f, 0x20, 0x37, "DS", "1\\0\\0\\0\\1\\0");
-    put_text(&f, 0x28, 0x04, "CS", form->photometric ? form->photometric : "MONOCHROME2");
-    if (!form->no_rows) put_word(&f, 0x28, 0x10, height);
-    put_word(&f, 0x28, 0x11, width);
-    put_text(&f, 0x28, 0x30, "DS", "0.5\\0.25");
-    put_word(&f, 0x28, 0x100, 16);
-    put_word(&f, 0x28, 0x101, 16);
-    put_word(&f, 0x28, 0x102, 15);
-    put_word(&f, 0x28, 0x103, form->is_signed);
-    if (form->has_padding) put_word(&f, 0x28, 0x120, form->padding);
-    put_text(&f, 0x28, 0x1052, "DS", form->intercept ? form->intercept : "-1024");
-    put_text(&f, 0x28, 0x1053, "DS", form->slope ? form->slope : "1");
-    uint8_t pixels[2 * width * height];
-    for (int i = 0; i < width * height; i++) {
-        pixels[2 * i] = (uint8_t)form->pixels[i];
-        pixels[2 * i + 1] = (uint8_t)(form->pixels[i] >> 8);
-    }
-    put(&f, 0x7FE0, 0x10, "OW", pixels, sizeof pixels);
-    char path[512];
-    snprintf(path, sizeof path, FOLDER "/%s", name);
-    FILE *out = fopen(path, "wb");
-    assert_non_null(out);
-    fwrite(f.bytes, 1, f.size - (form->cut ? 7 : 0), out);
-    fclose(out);
-}
-
-static form form_at(double z, int value) {
-    form f = {.z = z, .instance = (int)z};
-    for (int i = 0; i < width * height; i++) f.pixels[i] = (uint16_t)(value + i);
-    return f;
-}
-
-static double hu_at(const ang_volume *v, int x, int y, int z) {
-    size_t i = ((size_t)z * (size_t)v->dims[1] + (size_t)y) * (size_t)v->dims[0] + (size_t)x;
-    return ang_volume_hu(v, v->data[i]);
-}
+#include "tests/io/small_dicom.h"
 
 static void test_small_series(void **state) {
     (void)state;
@@ -168,7 +69,10 @@ static void test_broken_slices_are_missing(void **state) {
     assert_int_equal(report.slices_missing, 1);
     assert_float_equal(hu_at(v, 0, 0, 2), 176, 1e-9);
     bool named = false;
-    for (size_t i = 0; i < report.warnings.count; i++) named = named || strstr(report.warnings.text[i], "JOHN_DOE_2");
+    for (size_t i = 0; i < report.warnings.count; i++) {
+        named = named || (report.warnings.file[i] && strcmp(report.warnings.file[i], "JOHN_DOE_2") == 0);
+        assert_null(strstr(report.warnings.text[i], "JOHN"));
+    }
     assert_true(named);
     cJSON *json = ang_load_report_json(v, &report, false);
     char *text = cJSON_PrintUnformatted(json);
@@ -266,6 +170,104 @@ static void test_declared_padding(void **state) {
     ang_load_report_clear(&report);
 }
 
+static void test_padding_at_a_tie(void **state) {
+    (void)state;
+    fresh_folder(FOLDER);
+    form f = form_at(0, 100);
+    f.slope = "2";
+    f.intercept = "-1021"; /* -1000 HU lies half way between 10 and 11 */
+    f.has_padding = true;
+    f.padding = 3;
+    f.pixels[7] = 3;
+    small("a", &f);
+    ang_load_report report;
+    ang_volume *v = load(FOLDER, &report);
+    assert_true(report.padding_declared);
+    assert_true(ang_volume_is_padding(v, 7));
+    assert_int_equal(v->data[7], ang_volume_padding_value(v));
+    assert_int_equal(v->data[7], 11);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+/* A file that cannot be decoded, at the position of a good one, before or after it in order. */
+static void test_damaged_double_is_left_out(void **state) {
+    (void)state;
+    for (int order = 0; order < 2; order++) {
+        for (int other_map = 0; other_map < 2; other_map++) {
+            fresh_folder(FOLDER);
+            for (int i = 0; i < 4; i++) {
+                form f = form_at(i, 1000 + 100 * i);
+                f.instance = 10 + i;
+                char name[16];
+                snprintf(name, sizeof name, "slice%d", i);
+                small(name, &f);
+            }
+            form bad = form_at(2, 0);
+            bad.damaged = true;
+            bad.instance = order ? 99 : 1;
+            if (other_map) bad.slope = "3";
+            small("JOHN_DOE", &bad);
+            ang_load_report report;
+            ang_volume *v = load(FOLDER, &report);
+            assert_int_equal(report.series_count, 1);
+            assert_string_equal(report.series[0].remark, "");
+            assert_int_equal(v->dims[2], 4);
+            assert_int_equal(report.slices_missing, 0);
+            assert_int_equal(report.slices_duplicate, 0);
+            assert_float_equal(hu_at(v, 0, 0, 2), 176, 1e-9);
+            assert_int_equal(report.warnings.count, 1);
+            assert_string_equal(report.warnings.file[0], "JOHN_DOE");
+            assert_non_null(strstr(report.warnings.text[0], "damaged"));
+            ang_volume_free(v);
+            ang_load_report_clear(&report);
+        }
+    }
+}
+
+static void test_doubles_without_orientation_or_position(void **state) {
+    (void)state;
+    for (int missing = 0; missing < 2; missing++) {
+        fresh_folder(FOLDER);
+        for (int i = 0; i < 4; i++) {
+            form f = form_at(i < 3 ? i : 1, 1000 + 100 * (i < 3 ? i : 1)); /* the last is the second again */
+            f.no_orientation = missing == 0;
+            f.no_position = missing == 1;
+            char name[16];
+            snprintf(name, sizeof name, "slice%d", i);
+            small(name, &f);
+        }
+        ang_load_report report;
+        ang_volume *v = load(FOLDER, &report);
+        assert_int_equal(v->dims[2], 3);
+        assert_int_equal(report.slices_duplicate, 1);
+        assert_float_equal(hu_at(v, 0, 0, 1), 76, 1e-9);
+        assert_float_equal(hu_at(v, 0, 0, 2), 176, 1e-9);
+        ang_volume_free(v);
+        ang_load_report_clear(&report);
+    }
+}
+
+static void test_invalid_spacing(void **state) {
+    (void)state;
+    fresh_folder(FOLDER);
+    form f = form_at(0, 100);
+    f.spacing = "0\\0";
+    small("a", &f);
+    ang_load_report report;
+    ang_volume *v = load(FOLDER, &report);
+    assert_int_equal(report.warnings.count, 1);
+    assert_non_null(strstr(report.warnings.text[0], "(0028,0030) PixelSpacing is invalid"));
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+    f.spacing = "";
+    small("a", &f);
+    v = load(FOLDER, &report);
+    assert_non_null(strstr(report.warnings.text[0], "(0028,0030) PixelSpacing is missing"));
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
 static bool stop_at_once(void *context, const char *what, double fraction) {
     (void)what, (void)fraction;
     atomic_fetch_add((atomic_int *)context, 1);
@@ -320,13 +322,15 @@ static void test_raw(void **state) {
     assert_null(ang_load(FOLDER "/v.raw", &options, &report, NULL, &err));
     assert_int_equal(err.code, ANG_INPUT);
     ang_load_report_clear(&report);
-    options.raw_dims = "2000000x2000000x2000000";
-    assert_null(ang_load(FOLDER "/v.raw", &options, &report, NULL, &err));
-    ang_load_report_clear(&report);
-    options.raw_dims = "2x3";
-    assert_null(ang_load(FOLDER "/v.raw", &options, &report, NULL, &err));
-    assert_int_equal(err.code, ANG_USAGE);
-    ang_load_report_clear(&report);
+    static const char *const wrong_dims[] = {
+        "2x3", "2000000x2000000x2000000", "99999999999x1x1", "4294967297x1x1", "2x3x4x", "2x3x-4", "2x 3x4", "0x3x4"};
+    for (size_t i = 0; i < sizeof wrong_dims / sizeof *wrong_dims; i++) {
+        options.raw_dims = wrong_dims[i];
+        assert_null(ang_load(FOLDER "/v.raw", &options, &report, NULL, &err));
+        assert_int_equal(err.code, ANG_USAGE);
+        assert_non_null(strstr(err.message, wrong_dims[i]));
+        ang_load_report_clear(&report);
+    }
 
     float floats[8] = {-1000.5F, 0, 1000.25F, NAN, INFINITY, -INFINITY, 3, 4};
     gzFile gz = gzopen(FOLDER "/f.raw.gz", "wb");
@@ -347,7 +351,20 @@ static void test_raw(void **state) {
     ang_volume_free(v);
     ang_load_report_clear(&report);
     write_file("f.raw.json", "{\"dims\": 3}", 11);
-    must_fail(FOLDER "/f.raw.gz", ANG_INPUT, "f.raw.json: \"dims\"");
+    must_fail(FOLDER "/f.raw.gz", ANG_USAGE, "f.raw.json:1: dims");
+    static const struct {
+        const char *text, *needle;
+    } wrong[] = {
+        {"{\"type\": \"u8\",\n\"dims\": [2, 0, 2]}", "f.raw.json:2: dims[1] is 0"},
+        {"{\"dims\": [2, 2.5, 2]}", "f.raw.json:1: dims must be"},
+        {"{\"dims\": [2, 2, 2],\n\n\"type\": \"u9\"}", "f.raw.json:3: type must be"},
+        {"{\"dims\": \"2x2x2\", \"type\": \"u8\",\n\"spacing\": [1, -1, 1]}", "f.raw.json:2: spacing[1] is -1"},
+        {"[1, 2]", "f.raw.json:1: must be an object"},
+        {"{\"dims\": ", "f.raw.json:1: is not valid JSON"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        write_file("f.raw.json", wrong[i].text, strlen(wrong[i].text));
+        must_fail(FOLDER "/f.raw.gz", ANG_USAGE, wrong[i].needle);
+    }
 }
 
 #ifdef ANG_WITH_NIFTI
@@ -415,6 +432,10 @@ int main(void) {
         cmocka_unit_test(test_clear_errors),
         cmocka_unit_test(test_rescale_by_slice),
         cmocka_unit_test(test_declared_padding),
+        cmocka_unit_test(test_padding_at_a_tie),
+        cmocka_unit_test(test_damaged_double_is_left_out),
+        cmocka_unit_test(test_doubles_without_orientation_or_position),
+        cmocka_unit_test(test_invalid_spacing),
         cmocka_unit_test(test_interrupt),
         cmocka_unit_test(test_raw),
 #ifdef ANG_WITH_NIFTI

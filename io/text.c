@@ -1,0 +1,39 @@
+#include "io/text.h"
+
+#include <stdint.h>
+
+/* Bytes of the printable character at `p`, NUL-terminated; 0 where there is none. */
+static int character_length(const uint8_t *p) {
+    if (p[0] < 0x80) return p[0] >= 0x20 && p[0] != 0x7F ? 1 : 0;
+    int length = p[0] >= 0xC2 && p[0] <= 0xDF   ? 2
+                 : p[0] >= 0xE0 && p[0] <= 0xEF ? 3
+                 : p[0] >= 0xF0 && p[0] <= 0xF4 ? 4
+                                                : 0;
+    if (length == 0) return 0;
+    /* Too long a form, a surrogate, beyond U+10FFFF, or a control character of U+0080 to U+009F. */
+    if ((p[0] == 0xE0 && p[1] < 0xA0) || (p[0] == 0xED && p[1] > 0x9F)) return 0;
+    if ((p[0] == 0xF0 && p[1] < 0x90) || (p[0] == 0xF4 && p[1] > 0x8F)) return 0;
+    if (p[0] == 0xC2 && p[1] < 0xA0) return 0;
+    for (int i = 1; i < length; i++)
+        if ((p[i] & 0xC0) != 0x80) return 0;
+    return length;
+}
+
+void ang_text_clean(char *text) {
+    while (*text) {
+        int length = character_length((const uint8_t *)text);
+        if (length == 0) *text = '?';
+        text += length ? length : 1;
+    }
+}
+
+void ang_text_from_latin1(const char *text, char *out, size_t size) {
+    size_t used = 0;
+    for (const uint8_t *p = (const uint8_t *)text; *p; p++) {
+        size_t needed = *p < 0x80 ? 1 : 2;
+        if (used + needed >= size) break;
+        if (needed == 2) out[used++] = (char)(0xC0 | *p >> 6);
+        out[used++] = (char)(needed == 2 ? 0x80 | (*p & 0x3F) : *p);
+    }
+    if (size) out[used] = 0;
+}

@@ -1,0 +1,14 @@
+/* Text from files made fit for JSON and terminals. Pure functions. */
+#ifndef ANG_IO_TEXT_H
+#define ANG_IO_TEXT_H
+
+#include <stddef.h>
+
+/* Replaces, in place, every byte that is not part of well-formed UTF-8 (RFC 3629) and every control character by '?'.
+ */
+void ang_text_clean(char *text);
+
+/* Latin-1 (ISO 8859-1) becomes UTF-8 in `out`, cut to `size` bytes between characters. */
+void ang_text_from_latin1(const char *text, char *out, size_t size);
+
+#endif

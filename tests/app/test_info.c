@@ -1,0 +1,59 @@
+/* What `angioscope info` says of what it cannot load. */
+#define FOLDER ANG_TEST_TMP "/info"
+#include "tests/io/small_dicom.h"
+
+#include <sys/wait.h>
+
+static char output[1 << 16];
+
+static int run(const char *arguments) {
+    char command[4096];
+    snprintf(command, sizeof command, "%s %s", ANG_PROGRAM, arguments);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    size_t length = fread(output, 1, sizeof output - 1, pipe);
+    output[length] = '\0';
+    int status = pclose(pipe);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static void what_is_not_loaded_is_listed(void **state) {
+    (void)state;
+    fresh_folder(FOLDER);
+    form f = form_at(0, 1000);
+    f.image_type = "ORIGINAL\\PRIMARY\\LOCALIZER";
+    small("a", &f);
+    assert_int_equal(run("info --quiet " FOLDER " 2>&1"), 3);
+    const char *table = strstr(output, "not a volume: localizer");
+    assert_non_null(table);
+    assert_non_null(strstr(table, "angioscope: ")); /* the error comes last */
+    assert_int_equal(run("info --json " FOLDER " 2>/dev/null"), 3);
+    cJSON *json = cJSON_Parse(output);
+    assert_non_null(json);
+    const cJSON *input = cJSON_GetObjectItemCaseSensitive(json, "input");
+    const cJSON *series = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(input, "series"), 0);
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(series, "remark")->valuestring, "localizer");
+    assert_true(cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(series, "chosen")));
+    assert_null(cJSON_GetObjectItemCaseSensitive(input, "dims"));
+    cJSON_Delete(json);
+    assert_int_equal(run("info " FOLDER "/nowhere 2>/dev/null"), 3); /* nothing found, nothing listed */
+    assert_string_equal(output, "");
+}
+
+static void wrong_raw_options_give_two(void **state) {
+    (void)state;
+    fresh_folder(FOLDER);
+    form f = form_at(0, 1000);
+    small("a", &f);
+    assert_int_equal(run("info " FOLDER "/a --raw-type u8 --raw-dims 99999999999x1x1 2>&1"), 2);
+    assert_non_null(strstr(output, "--raw-dims 99999999999x1x1"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_not_loaded_is_listed),
+        cmocka_unit_test(wrong_raw_options_give_two),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
