@@ -80,7 +80,10 @@ void ang_app_progress_end(ang_app_progress *progress) {
 }
 
 void ang_app_say(const ang_notes *notes, const char *prefix) {
-    for (size_t i = 0; i < notes->count; i++) fprintf(stderr, "%s%s\n", prefix, notes->text[i]);
+    for (size_t i = 0; i < notes->count; i++) {
+        char line[ANG_NOTES_LINE];
+        fprintf(stderr, "%s%s\n", prefix, ang_notes_line(notes, i, true, line, sizeof line));
+    }
 }
 
 bool ang_app_parse_dims(const char *option, const char *text, int count, int *out, ang_error *err) {

@@ -24,7 +24,7 @@ const ang_progress *ang_app_progress_sink(const ang_app_progress *progress);
 /* Ends the line on a terminal and frees. */
 void ang_app_progress_end(ang_app_progress *progress);
 
-/* Prints sentences to stderr, each with `prefix`. */
+/* Prints sentences to stderr, each with `prefix`; files are named: stderr is for the person who runs the program. */
 void ang_app_say(const ang_notes *notes, const char *prefix);
 /* "AxB" or "AxBxC" into `count` whole numbers >= 1. */
 bool ang_app_parse_dims(const char *option, const char *text, int count, int *out, ang_error *err);

@@ -1,3 +1,3 @@
-float field_at(vec3 coordinate) {
-    return field_stored(trilinear(field_values, coordinate));
+float field_at(vec3 place) {
+    return field_stored(trilinear(field_values, place));
 }

@@ -4,25 +4,24 @@ uniform float termination; // accumulated opacity at which a ray stops
 vec4 march(Ray ray, out float samples) {
     float reach = ray.leave - ray.enter;
     int count = lattice_count(reach);
-    vec3 start = (ray.origin + ray.enter * ray.direction) * field_scale + field_offset;
-    vec3 along = ray.direction * field_scale;
+    vec3 start = ray.origin + ray.enter * ray.direction;
     vec3 colour = vec3(0.0);
     float opacity = 0.0;
     int i = 0;
     while (i < count && opacity < termination) {
         vec4 medium;
-        vec3 coordinate;
+        vec3 place;
         float piece;
         // Software GL runs both sides of every branch but leaves a loop when all its pixels have: the inner loop spares
         // it the shading of what is invisible.
         do {
             piece = lattice_length(i, count, reach);
-            coordinate = start + lattice_place(i, piece) * along;
+            place = start + lattice_place(i, piece) * ray.direction;
             i++;
-            medium = transfer_at(field_at(coordinate));
+            medium = transfer_at(field_at(place));
         } while (medium.a <= 0.0 && i < count);
         float added = (1.0 - opacity) * opacity_of(medium.a * piece);
-        colour += added * shade(medium.rgb, coordinate, ray.direction_mm);
+        colour += added * shade(medium.rgb, place, ray.direction_mm);
         opacity += added;
     }
     samples = float(i);

@@ -7,8 +7,7 @@ const int iso_refinements = 18; // halvings of one step
 vec4 march(Ray ray, out float samples) {
     float reach = ray.leave - ray.enter;
     int count = lattice_count(reach);
-    vec3 start = (ray.origin + ray.enter * ray.direction) * field_scale + field_offset;
-    vec3 along = ray.direction * field_scale;
+    vec3 start = ray.origin + ray.enter * ray.direction;
     float before = 0.0;
     float at = 0.0;
     float value = field_at(start);
@@ -18,7 +17,7 @@ vec4 march(Ray ray, out float samples) {
     for (int i = 0; i <= count && value < iso_stored; i++) {
         before = at;
         at = i < count ? lattice_place(i, lattice_length(i, count, reach)) : reach;
-        value = field_at(start + at * along);
+        value = field_at(start + at * ray.direction);
         evaluated++;
     }
     samples = float(evaluated);
@@ -29,12 +28,12 @@ vec4 march(Ray ray, out float samples) {
     } else {
         for (int i = 0; i < iso_refinements; i++) {
             float middle = 0.5 * (before + at);
-            if (field_at(start + middle * along) >= iso_stored)
+            if (field_at(start + middle * ray.direction) >= iso_stored)
                 at = middle;
             else
                 before = middle;
         }
         samples += float(iso_refinements);
     }
-    return vec4(shade(colour, start + at * along, ray.direction_mm), 1.0);
+    return vec4(shade(colour, start + at * ray.direction, ray.direction_mm), 1.0);
 }

@@ -5,16 +5,15 @@ uniform float mean_empty; // stored value (any) shown where there is only paddin
 vec4 march(Ray ray, out float samples) {
     float reach = ray.leave - ray.enter;
     int count = lattice_count(reach);
-    vec3 start = (ray.origin + ray.enter * ray.direction) * field_scale + field_offset;
-    vec3 along = ray.direction * field_scale;
+    vec3 start = ray.origin + ray.enter * ray.direction;
     // x: about padding, the share of padding drops out; y: mm of tissue. Thousands of terms are summed: what a sum loses
     // to rounding is kept in `lost` and added to the next term (Kahan).
     vec2 sum = vec2(0.0);
     precise vec2 lost = vec2(0.0);
     for (int i = 0; i < count; i++) {
         float piece = lattice_length(i, count, reach);
-        vec3 coordinate = start + lattice_place(i, piece) * along;
-        precise vec2 term = piece * vec2(field_at(coordinate) - mean_base, weight_at(coordinate)) - lost;
+        vec3 place = start + lattice_place(i, piece) * ray.direction;
+        precise vec2 term = piece * vec2(field_at(place) - mean_base, weight_at(place)) - lost;
         precise vec2 next = sum + term;
         lost = (next - sum) - term;
         sum = next;

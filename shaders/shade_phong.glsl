@@ -5,8 +5,8 @@ uniform float phong_specular;
 uniform float phong_power;
 uniform float phong_g0; // HU/mm
 
-vec3 shade(vec3 colour, vec3 coordinate, vec3 direction_mm) {
-    vec3 gradient = gradient_at(coordinate);
+vec3 shade(vec3 colour, vec3 place, vec3 direction_mm) {
+    vec3 gradient = gradient_at(place);
     float squared = dot(gradient, gradient);
     if (!(squared > 0.0)) return colour;
     float facing = min(abs(dot(gradient, direction_mm)) * inversesqrt(squared), 1.0);

@@ -1,11 +1,15 @@
-// Interpolation in float, to verify the texture unit's, which may weight in 8 bits. Volumes of the field's size.
-float trilinear(sampler3D values, vec3 coordinate) {
-    vec3 last = field_dims - 1.0;
-    vec3 place = clamp(coordinate * field_dims - 0.5, vec3(0.0), last);
-    vec3 cell = floor(place);
-    vec3 f = place - cell;
-    ivec3 a = ivec3(cell);
-    ivec3 b = ivec3(min(cell + 1.0, last));
+// Interpolation in float, to verify the texture unit's, which may weight in 8 bits. The weights come from the place in
+// the whole volume, so that they are the same bits whichever texture holds the voxels.
+uniform vec3 trilinear_centre; // voxel index of the box's centre
+uniform vec3 trilinear_last;   // index of the volume's last voxel
+uniform vec3 trilinear_first;  // voxel index of the texture's first texel
+
+float trilinear(sampler3D values, vec3 place) {
+    vec3 voxel = clamp(place + trilinear_centre, vec3(0.0), trilinear_last);
+    vec3 cell = floor(voxel);
+    vec3 f = voxel - cell;
+    ivec3 a = ivec3(cell - trilinear_first);
+    ivec3 b = ivec3(min(cell + 1.0, trilinear_last) - trilinear_first);
     float v000 = texelFetch(values, a, 0).r;
     float v100 = texelFetch(values, ivec3(b.x, a.y, a.z), 0).r;
     float v010 = texelFetch(values, ivec3(a.x, b.y, a.z), 0).r;

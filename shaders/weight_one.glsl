@@ -1,3 +1,3 @@
-float weight_at(vec3 coordinate) {
+float weight_at(vec3 place) {
     return 1.0;
 }

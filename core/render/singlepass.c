@@ -1,19 +1,14 @@
 #include "core/render/method.h"
 
 #include "core/base/memory.h"
-#include "core/render/program.h"
-#include "core/render/scene_uniforms.h"
-#include "core/render/table_texture.h"
+#include "core/render/scene_parts.h"
 #include "core/render/target.h"
-#include "core/render/volume_texture.h"
 
 #include <glad/gl.h>
 #include <shaders.h>
 #include <stdlib.h>
 
 enum {
-    UNIT_TABLE = 0,
-    UNIT_FIELD = 1, /* and the weight after it */
     BAND_ROWS = 64, /* rows drawn at once: drivers stop draws that take seconds, and users want to */
 };
 
@@ -60,48 +55,14 @@ static ang_renderer *create(ang_gl *gl, const ang_volume *volume, ang_error *err
     return renderer;
 }
 
-static bool needs_table(const ang_scene *scene) { return scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO; }
-
-static bool needs_phong(const ang_scene *scene) {
-    return scene->mode == ANG_MODE_ISO || (scene->mode == ANG_MODE_DVR && scene->shading == ANG_SHADING_PHONG);
-}
-
-static void add_shading(ang_shader_source *source, const ang_scene *scene) {
-    ANG_SHADER_ADD(source, transfer);
-    if (needs_phong(scene)) {
-        ANG_SHADER_ADD(source, gradient);
-        ANG_SHADER_ADD(source, shade_phong);
-    } else {
-        ANG_SHADER_ADD(source, shade_none);
-    }
-}
-
-static void add_weight(ang_shader_source *source, const ang_volume *volume, bool manual) {
-    if (!volume->padding)
-        ANG_SHADER_ADD(source, weight_one);
-    else if (manual)
-        ANG_SHADER_ADD(source, weight_manual);
-    else
-        ANG_SHADER_ADD(source, weight_hardware);
-}
-
 /* Only what the scene needs is in the program. */
 static ang_shader_source compose(const ang_scene *scene, const ang_volume *volume, bool manual, bool counting) {
     ang_shader_source source = {.count = 0};
     ANG_SHADER_ADD(&source, version);
     ANG_SHADER_ADD(&source, ray);
     ANG_SHADER_ADD(&source, lattice);
-    ANG_SHADER_ADD(&source, field);
-    if (manual) {
-        ANG_SHADER_ADD(&source, trilinear);
-        ANG_SHADER_ADD(&source, field_manual);
-    } else {
-        ANG_SHADER_ADD(&source, field_hardware);
-    }
-    if (needs_table(scene))
-        add_shading(&source, scene);
-    else
-        ANG_SHADER_ADD(&source, window);
+    ang_parts_field(&source, manual);
+    ang_parts_classification(&source, scene);
     switch (scene->mode) {
     case ANG_MODE_DVR:
         ANG_SHADER_ADD(&source, opacity);
@@ -114,7 +75,7 @@ static ang_shader_source compose(const ang_scene *scene, const ang_volume *volum
         ANG_SHADER_ADD(&source, march_minip);
         break;
     case ANG_MODE_MEAN:
-        add_weight(&source, volume, manual);
+        ang_parts_weight(&source, scene, volume, manual);
         ANG_SHADER_ADD(&source, march_mean);
         break;
     case ANG_MODE_ISO:
@@ -132,9 +93,11 @@ static ang_shader_source compose(const ang_scene *scene, const ang_volume *volum
 static GLuint prepare(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, bool counting,
                       ang_error *err) {
     const ang_volume *volume = renderer->volume;
-    if (needs_table(scene) && !ang_table_texture_update(&renderer->table, renderer->gl, scene->transfer, volume, err))
+    if (ang_scene_needs_table(scene) &&
+        !ang_table_texture_update(&renderer->table, renderer->gl, scene->transfer, volume, err))
         return 0;
-    if (scene->mode == ANG_MODE_MEAN && !ang_volume_texture_add_weight(&renderer->field, renderer->gl, volume, err))
+    if (ang_scene_needs_weight(scene, volume) &&
+        !ang_volume_texture_add_weight(&renderer->field, renderer->gl, volume, err))
         return 0;
     if (!ang_target_resize(&renderer->target, renderer->gl, scene->width, scene->height, counting, err)) return 0;
     ang_shader_source vertex = {.count = 0};
@@ -154,24 +117,10 @@ static void set_uniforms(const ang_renderer *renderer, GLuint program, const ang
                          const ang_render_options *options, const ang_ray_frame *frame) {
     const ang_volume *volume = renderer->volume;
     ang_uniforms_ray(program, frame);
-    ang_uniforms_field(program, &renderer->field, volume, frame, UNIT_FIELD);
+    ang_uniforms_field(program, &renderer->field, volume, frame);
+    ang_uniforms_scene(program, scene, volume, frame, &renderer->table);
     ang_uniform_float(program, "lattice_step", step_used(volume, options));
-    if (needs_table(scene)) ang_table_texture_bind(&renderer->table, program, UNIT_TABLE);
-    if (needs_phong(scene)) ang_uniforms_phong(program, volume, scene, frame);
-    if (!needs_table(scene)) ang_uniforms_window(program, volume, scene);
     if (scene->mode == ANG_MODE_DVR) ang_uniform_float(program, "termination", options->termination);
-    if (scene->mode == ANG_MODE_MEAN) {
-        /* Without padding any base will do: one near the values keeps the sums small. */
-        double base = volume->padding ? ang_volume_padding_value(volume) : 0.5 * (volume->minimum + volume->maximum);
-        ang_uniform_float(program, "mean_base", base);
-        ang_uniform_float(program, "mean_empty", ang_volume_stored(volume, -1000));
-    }
-    if (scene->mode == ANG_MODE_ISO) {
-        double colour[3];
-        ang_transfer_colour(scene->transfer, scene->iso_hu, colour);
-        ang_uniform_float(program, "iso_stored", ang_volume_stored(volume, scene->iso_hu));
-        ang_uniform_vec3(program, "iso_colour", (ang_vec3){colour[0], colour[1], colour[2]});
-    }
 }
 
 /* Draws and reads the picture band by band. */

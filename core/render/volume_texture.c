@@ -8,71 +8,109 @@
 /* Bytes handed to GL at once: drivers copy what they get. */
 static const size_t slab_bytes = (size_t)64 << 20;
 
-typedef void slab_fill(const ang_volume *volume, size_t first, size_t count, uint16_t *out);
+/* Writes `depth` planes of the texture, from plane z on, as 16-bit numbers. */
+typedef void slab_fill(const ang_volume_texture *texture, const ang_volume *volume, int z, int depth, uint16_t *out);
 
-static bool fits(ang_gl *gl, const ang_volume *volume, ang_error *err) {
-    const int *dims = volume->dims;
+bool ang_volume_texture_fits(ang_gl *gl, const int dims[3], ang_error *err) {
     int limit = ang_gl_max_texture_3d(gl);
     for (int axis = 0; axis < 3; axis++)
         if (dims[axis] > limit)
             return ang_fail(
                 err, ANG_LIMIT,
-                "volume of %dx%dx%d voxels: this OpenGL (%s) takes at most %d a side; clip or resample it, or "
-                "choose --method reference",
+                "volume of %dx%dx%d voxels: this OpenGL (%s) takes at most %d a side in one texture; choose --method "
+                "slicing, which takes it in bricks, or --method reference",
                 dims[0], dims[1], dims[2], ang_gl_renderer(gl), limit);
     GLint width = 0;
     glTexImage3D(GL_PROXY_TEXTURE_3D, 0, GL_R16, dims[0], dims[1], dims[2], 0, GL_RED, GL_UNSIGNED_SHORT, NULL);
     glGetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &width);
-    if (width != dims[0])
-        return ang_fail(
-            err, ANG_LIMIT,
-            "volume of %dx%dx%d voxels is larger than this OpenGL (%s) takes; clip or resample it, or choose "
-            "--method reference",
-            dims[0], dims[1], dims[2], ang_gl_renderer(gl));
+    if (width == dims[0]) return true;
+    return ang_fail(err, ANG_LIMIT,
+                    "volume of %dx%dx%d voxels is larger than one texture of this OpenGL (%s) may be; choose --method "
+                    "slicing, which takes it in bricks, or --method reference",
+                    dims[0], dims[1], dims[2], ang_gl_renderer(gl));
+}
+
+static bool covers(const ang_volume_texture *texture, const ang_volume *volume) {
+    for (int axis = 0; axis < 3; axis++)
+        if (texture->first[axis] != 0 || texture->dims[axis] != volume->dims[axis]) return false;
     return true;
 }
 
-/* Where `fill` is NULL the volume's own values are uploaded. */
-static bool upload(ang_gl *gl, const ang_volume *volume, slab_fill *fill, ang_error *err) {
-    size_t slice = (size_t)volume->dims[0] * (size_t)volume->dims[1];
+/* Index of the voxel that texel `i` along an axis shows: beyond the volume its outermost. */
+static int clamped(const ang_volume_texture *texture, const ang_volume *volume, int axis, int i) {
+    int index = texture->first[axis] + i, last = volume->dims[axis] - 1;
+    return index < 0 ? 0 : index > last ? last : index;
+}
+
+/* Index in the volume of the first voxel of a row of texels. */
+static size_t row_start(const ang_volume_texture *texture, const ang_volume *volume, int y, int z) {
+    return (size_t)volume->dims[0] *
+           ((size_t)clamped(texture, volume, 1, y) + (size_t)volume->dims[1] * (size_t)clamped(texture, volume, 2, z));
+}
+
+static void fill_values(const ang_volume_texture *texture, const ang_volume *volume, int z, int depth, uint16_t *out) {
+    int width = texture->dims[0];
+    for (int row = 0; row < depth * texture->dims[1]; row++, out += width) {
+        const uint16_t *from =
+            volume->data + row_start(texture, volume, row % texture->dims[1], z + row / texture->dims[1]);
+        for (int x = 0; x < width; x++) out[x] = from[clamped(texture, volume, 0, x)];
+    }
+}
+
+static void fill_weight(const ang_volume_texture *texture, const ang_volume *volume, int z, int depth, uint16_t *out) {
+    int width = texture->dims[0];
+    for (int row = 0; row < depth * texture->dims[1]; row++, out += width) {
+        size_t from = row_start(texture, volume, row % texture->dims[1], z + row / texture->dims[1]);
+        for (int x = 0; x < width; x++)
+            out[x] = ang_volume_is_padding(volume, from + (size_t)clamped(texture, volume, 0, x)) ? 0 : 65535;
+    }
+}
+
+/* Where `fill` is NULL the volume's own values are uploaded as they lie in memory. */
+static bool upload(const ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, slab_fill *fill,
+                   ang_error *err) {
+    const int *dims = texture->dims;
+    size_t slice = (size_t)dims[0] * (size_t)dims[1];
     size_t slices = slab_bytes / sizeof(uint16_t) / slice;
     if (slices < 1) slices = 1;
-    if (slices > (size_t)volume->dims[2]) slices = (size_t)volume->dims[2];
+    if (slices > (size_t)dims[2]) slices = (size_t)dims[2];
     uint16_t *made = NULL;
     if (fill) {
-        made = ang_alloc(slices * slice, sizeof *made, "the weight of the padding", err);
+        made = ang_alloc(slices * slice, sizeof *made, "voxels on their way to a texture", err);
         if (!made) return false;
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    for (int z = 0; z < volume->dims[2]; z += (int)slices) {
-        int depth = volume->dims[2] - z < (int)slices ? volume->dims[2] - z : (int)slices;
-        const uint16_t *from = volume->data + (size_t)z * slice;
-        if (fill) {
-            fill(volume, (size_t)z * slice, (size_t)depth * slice, made);
-            from = made;
-        }
-        glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, z, volume->dims[0], volume->dims[1], depth, GL_RED, GL_UNSIGNED_SHORT,
-                        from);
+    for (int z = 0; z < dims[2]; z += (int)slices) {
+        int depth = dims[2] - z < (int)slices ? dims[2] - z : (int)slices;
+        const uint16_t *from = fill ? made : volume->data + (size_t)z * slice;
+        if (fill) fill(texture, volume, z, depth, made);
+        glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, z, dims[0], dims[1], depth, GL_RED, GL_UNSIGNED_SHORT, from);
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     free(made);
     ang_error cause;
     if (ang_gl_check(gl, &cause)) return true;
-    return ang_fail(err, ANG_LIMIT, "volume of %dx%dx%d voxels could not be uploaded (%.300s); clip or resample it",
-                    volume->dims[0], volume->dims[1], volume->dims[2], cause.message);
+    return ang_fail(err, ANG_LIMIT, "texture of %dx%dx%d voxels could not be uploaded (%.300s); lower --gpu-memory",
+                    dims[0], dims[1], dims[2], cause.message);
 }
 
-static bool make_texture(unsigned *name, ang_gl *gl, const ang_volume *volume, slab_fill *fill, ang_error *err) {
-    if (!ang_gl_check(gl, err) || !fits(gl, volume, err)) return false;
-    glGenTextures(1, name);
+/* Makes the texture where there is none yet, and fills it. */
+static bool make_texture(unsigned *name, const ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume,
+                         slab_fill *fill, ang_error *err) {
+    const int *dims = texture->dims;
+    if (!*name) {
+        if (!ang_gl_check(gl, err) || !ang_volume_texture_fits(gl, dims, err)) return false;
+        glGenTextures(1, name);
+        glBindTexture(GL_TEXTURE_3D, *name);
+        glTexStorage3D(GL_TEXTURE_3D, 1, GL_R16, dims[0], dims[1], dims[2]);
+        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    }
     glBindTexture(GL_TEXTURE_3D, *name);
-    glTexStorage3D(GL_TEXTURE_3D, 1, GL_R16, volume->dims[0], volume->dims[1], volume->dims[2]);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
-    bool ok = upload(gl, volume, fill, err);
+    bool ok = upload(texture, gl, volume, fill, err);
     glBindTexture(GL_TEXTURE_3D, 0);
     if (!ok) {
         glDeleteTextures(1, name);
@@ -81,17 +119,27 @@ static bool make_texture(unsigned *name, ang_gl *gl, const ang_volume *volume, s
     return ok;
 }
 
-static void fill_weight(const ang_volume *volume, size_t first, size_t count, uint16_t *out) {
-    for (size_t i = 0; i < count; i++) out[i] = ang_volume_is_padding(volume, first + i) ? 0 : 65535;
+bool ang_volume_texture_create(ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, ang_error *err) {
+    return ang_volume_texture_set_part(texture, gl, volume, (const int[3]){0, 0, 0}, volume->dims, err);
 }
 
-bool ang_volume_texture_create(ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, ang_error *err) {
-    return make_texture(&texture->values, gl, volume, NULL, err);
+bool ang_volume_texture_set_part(ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, const int first[3],
+                                 const int dims[3], ang_error *err) {
+    bool keep = true;
+    for (int axis = 0; axis < 3; axis++) keep = keep && texture->dims[axis] == dims[axis];
+    if (!keep) ang_volume_texture_destroy(texture);
+    for (int axis = 0; axis < 3; axis++) {
+        texture->first[axis] = first[axis];
+        texture->dims[axis] = dims[axis];
+    }
+    slab_fill *fill = covers(texture, volume) ? NULL : fill_values;
+    if (!make_texture(&texture->values, texture, gl, volume, fill, err)) return false;
+    return !texture->weight || make_texture(&texture->weight, texture, gl, volume, fill_weight, err);
 }
 
 bool ang_volume_texture_add_weight(ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, ang_error *err) {
     if (texture->weight || !volume->padding) return true;
-    return make_texture(&texture->weight, gl, volume, fill_weight, err);
+    return make_texture(&texture->weight, texture, gl, volume, fill_weight, err);
 }
 
 void ang_volume_texture_destroy(ang_volume_texture *texture) {

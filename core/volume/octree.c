@@ -16,9 +16,12 @@ typedef struct build_job {
 static int min_int(int a, int b) { return a < b ? a : b; }
 static int max_int(int a, int b) { return a > b ? a : b; }
 
-static void voxel_range(int leaf, int apron, int dim, int *first, int *last) {
-    *first = max_int(leaf * ANG_OCTREE_LEAF - (apron - 1), 0);
-    *last = min_int(leaf * ANG_OCTREE_LEAF + ANG_OCTREE_LEAF + (apron - 1), dim - 1);
+/* The voxels first..last along an axis that leaf `index` covers. */
+static void voxel_range(const ang_octree *octree, const ang_volume *volume, int axis, int index, int *first,
+                        int *last) {
+    int cells = octree->leaf[axis], more = octree->apron - 1;
+    *first = max_int(index * cells - more, 0);
+    *last = min_int(index * cells + cells + more, volume->dims[axis] - 1);
 }
 
 /* One row of leaves along x: first the extremes over the rows of voxels in y and z, a long loop that the compiler turns
@@ -31,8 +34,8 @@ ANG_SIMD static void build_leaf_rows(void *context, size_t begin, size_t end, in
     uint16_t *low = (uint16_t *)(job->rows + (size_t)worker * nx), *high = low + nx;
     for (size_t row = begin; row < end; row++) {
         int y0, y1, z0, z1;
-        voxel_range((int)(row % (size_t)leaves->dims[1]), job->octree->apron, volume->dims[1], &y0, &y1);
-        voxel_range((int)(row / (size_t)leaves->dims[1]), job->octree->apron, volume->dims[2], &z0, &z1);
+        voxel_range(job->octree, volume, 1, (int)(row % (size_t)leaves->dims[1]), &y0, &y1);
+        voxel_range(job->octree, volume, 2, (int)(row / (size_t)leaves->dims[1]), &z0, &z1);
         for (size_t x = 0; x < nx; x++) {
             low[x] = UINT16_MAX;
             high[x] = 0;
@@ -49,7 +52,7 @@ ANG_SIMD static void build_leaf_rows(void *context, size_t begin, size_t end, in
         ang_minmax *out = leaves->nodes + row * (size_t)leaves->dims[0];
         for (int i = 0; i < leaves->dims[0]; i++) {
             int x0, x1;
-            voxel_range(i, job->octree->apron, volume->dims[0], &x0, &x1);
+            voxel_range(job->octree, volume, 0, i, &x0, &x1);
             ang_minmax range = {low[x0], high[x0]};
             for (int x = x0 + 1; x <= x1; x++) {
                 range.min = low[x] < range.min ? low[x] : range.min;
@@ -86,14 +89,16 @@ static size_t node_count(const ang_octree_level *level) {
     return (size_t)level->dims[0] * (size_t)level->dims[1] * (size_t)level->dims[2];
 }
 
-ang_octree *ang_octree_build(const ang_volume *volume, int apron, int threads, ang_error *err) {
+ang_octree *ang_octree_build(const ang_volume *volume, const int leaf[3], int apron, int threads, ang_error *err) {
     ang_octree *octree = ang_alloc(1, sizeof *octree, "octree", err);
     if (!octree) return NULL;
     octree->apron = apron;
     /* Cells, not voxels, are shared out among leaves; an axis of one voxel has one cell. */
     for (int axis = 0; axis < 3; axis++) {
         int cells = max_int(volume->dims[axis] - 1, 1);
-        octree->level[0].dims[axis] = (cells + ANG_OCTREE_LEAF - 1) / ANG_OCTREE_LEAF;
+        octree->cells[axis] = cells;
+        octree->leaf[axis] = leaf ? min_int(leaf[axis], cells) : ANG_OCTREE_LEAF;
+        octree->level[0].dims[axis] = (cells + octree->leaf[axis] - 1) / octree->leaf[axis];
     }
     for (;;) {
         ang_octree_level *level = &octree->level[octree->levels];
@@ -125,4 +130,14 @@ void ang_octree_free(ang_octree *octree) {
     if (!octree) return;
     for (int level = 0; level < octree->levels; level++) free(octree->level[level].nodes);
     free(octree);
+}
+
+void ang_octree_cells(const ang_octree *octree, int level, const int node[3], int first[3], int end[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        /* In 64 bits: the last level may reach far beyond the volume. */
+        int64_t side = (int64_t)octree->leaf[axis] << level, cells = octree->cells[axis];
+        int64_t from = node[axis] * side, to = from + side;
+        first[axis] = (int)(from < cells ? from : cells);
+        end[axis] = (int)(to < cells ? to : cells);
+    }
 }

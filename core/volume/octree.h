@@ -1,4 +1,6 @@
-/* Min-max octree over the volume: what interpolation can give in any block of 8^3 cells, and in their unions. */
+/* Min-max octree over the volume: what interpolation can give in any leaf of cells, 8^3 by default, and in their
+ * unions.
+ */
 #ifndef ANG_VOLUME_OCTREE_H
 #define ANG_VOLUME_OCTREE_H
 
@@ -16,16 +18,23 @@ typedef struct ang_octree_level {
 } ang_octree_level;
 
 /* Level 0 has the leaves; node (i,j,k) of level L covers the nodes 2i..2i+1, ... of level L-1; the last level is one
- * node. Leaf (i,j,k) covers the cells [8i, 8i+8) x ..., that is the voxels 8i .. 8i+8 (apron 1: every voxel that
- * interpolation inside touches) or 8i-1 .. 8i+9 (apron 2: central differences of it too), clamped to the volume. */
+ * node. With leaves of n cells along x, leaf i covers the cells [n i, n i + n), that is the voxels n i .. n i + n
+ * (apron 1: every voxel that interpolation inside touches) or, with apron a, a-1 voxels more on each side, clamped to
+ * the volume. */
 typedef struct ang_octree {
+    int leaf[3];  /* cells of a leaf along x, y, z */
+    int cells[3]; /* of the volume: voxels less one; an axis of one voxel has one cell */
     int apron;
     int levels;
     ang_octree_level level[ANG_OCTREE_MAX_LEVELS];
 } ang_octree;
 
-/* Builds the tree in parallel; any dims >= 1; apron 1 or 2. NULL with ANG_LIMIT. Free with ang_octree_free. */
-ang_octree *ang_octree_build(const ang_volume *volume, int apron, int threads, ang_error *err);
+/* Builds the tree in parallel; any dims >= 1; `leaf` NULL: ANG_OCTREE_LEAF along each axis, else each >= 1; apron >= 1
+ * (2: central differences too). NULL with ANG_LIMIT. Free with ang_octree_free. */
+ang_octree *ang_octree_build(const ang_volume *volume, const int leaf[3], int apron, int threads, ang_error *err);
 void ang_octree_free(ang_octree *octree);
+
+/* The cells [first, end) along each axis of node (x,y,z) of `level`. */
+void ang_octree_cells(const ang_octree *octree, int level, const int node[3], int first[3], int end[3]);
 
 #endif

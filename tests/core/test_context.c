@@ -2,9 +2,8 @@
 #include "tests/core/fixtures.h"
 
 #include "core/render/context.h"
-#include "core/render/program.h"
+#include "core/render/scene_parts.h"
 #include "core/render/target.h"
-#include "core/render/volume_texture.h"
 
 #include <glad/gl.h>
 #include <string.h>
@@ -111,13 +110,13 @@ static void read_voxels(ang_gl *gl, const ang_volume *volume, bool manual, ang_i
     static const char text[] = "layout(location = 0) out vec4 values;\n"
                                "uniform int picture_width;\n"
                                "void main() {\n"
-                               "    ivec3 dims = ivec3(field_dims);\n"
+                               "    ivec3 dims = textureSize(field_values, 0);\n"
                                "    int i = int(gl_FragCoord.y) * picture_width + int(gl_FragCoord.x);\n"
                                "    ivec3 voxel = ivec3(i % dims.x, i / dims.x % dims.y, i / (dims.x * dims.y));\n"
-                               "    vec3 coordinate = (vec3(voxel) + 0.5) / field_dims;\n"
+                               "    vec3 coordinate = (vec3(voxel) + 0.5) / vec3(dims);\n"
                                "    values = vec4(texelFetch(field_values, voxel, 0).r * 65535.0,\n"
                                "                  textureLod(field_values, coordinate, 0.0).r * 65535.0,\n"
-                               "                  field_at(coordinate),\n"
+                               "                  field_at(vec3(voxel) - 0.5 * vec3(dims - 1)),\n"
                                "                  field_stored(texelFetch(field_values, voxel, 0).r));\n"
                                "}\n";
     ang_error err = {0};
@@ -144,11 +143,11 @@ static void read_voxels(ang_gl *gl, const ang_volume *volume, bool manual, ang_i
     glGenVertexArrays(1, &vertices);
     glBindVertexArray(vertices);
     glUseProgram(program);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_3D, texture.values);
-    ang_uniform_int(program, "field_values", 0);
+    ang_scene scene = ang_scene_default(volume);
+    ang_ray_frame frame;
+    assert_true(ang_ray_frame_make(volume, &scene, &frame, &err));
+    ang_uniforms_field(program, &texture, volume, &frame);
     ang_uniform_int(program, "picture_width", image->width);
-    ang_uniform_vec3(program, "field_dims", (ang_vec3){volume->dims[0], volume->dims[1], volume->dims[2]});
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     glViewport(0, 0, image->width, image->height);
     glDrawArrays(GL_TRIANGLES, 0, 3);

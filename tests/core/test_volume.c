@@ -104,12 +104,14 @@ static void histogram_counts_every_voxel_once(void **state) {
     ang_volume_free(volume);
 }
 
-static ang_minmax brute_force(const ang_volume *volume, const int leaf[3], int size, int apron) {
+/* The range of the node at `place` of a level whose nodes have `size` cells. */
+static ang_minmax brute_force(const ang_volume *volume, const int place[3], const int size[3], int apron) {
     ang_minmax range = {UINT16_MAX, 0};
     int low[3], high[3];
     for (int axis = 0; axis < 3; axis++) {
-        low[axis] = leaf[axis] * size - (apron - 1) < 0 ? 0 : leaf[axis] * size - (apron - 1);
-        int top = leaf[axis] * size + size + (apron - 1), last = volume->dims[axis] - 1;
+        int bottom = place[axis] * size[axis] - (apron - 1);
+        int top = place[axis] * size[axis] + size[axis] + (apron - 1), last = volume->dims[axis] - 1;
+        low[axis] = bottom < 0 ? 0 : bottom;
         high[axis] = top > last ? last : top;
     }
     for (int z = low[2]; z <= high[2]; z++)
@@ -122,31 +124,43 @@ static ang_minmax brute_force(const ang_volume *volume, const int leaf[3], int s
     return range;
 }
 
+static void check_octree(const ang_volume *volume, const int *leaf, int apron) {
+    ang_octree *octree = ang_octree_build(volume, leaf, apron, 2, NULL);
+    assert_non_null(octree);
+    for (int level = 0; level < octree->levels; level++) {
+        const ang_octree_level *l = &octree->level[level];
+        int size[3];
+        for (int axis = 0; axis < 3; axis++) size[axis] = octree->leaf[axis] << level;
+        size_t voxels = 0;
+        for (int i = 0, z = 0; z < l->dims[2]; z++)
+            for (int y = 0; y < l->dims[1]; y++)
+                for (int x = 0; x < l->dims[0]; x++, i++) {
+                    int node[3] = {x, y, z}, first[3], end[3];
+                    ang_minmax expected = brute_force(volume, node, size, apron);
+                    assert_int_equal(l->nodes[i].min, expected.min);
+                    assert_int_equal(l->nodes[i].max, expected.max);
+                    ang_octree_cells(octree, level, node, first, end);
+                    voxels += (size_t)(end[0] - first[0]) * (size_t)(end[1] - first[1]) * (size_t)(end[2] - first[2]);
+                }
+        assert_int_equal(voxels, (size_t)octree->cells[0] * (size_t)octree->cells[1] * (size_t)octree->cells[2]);
+    }
+    const ang_octree_level *top = &octree->level[octree->levels - 1];
+    assert_int_equal(top->dims[0] * top->dims[1] * top->dims[2], 1);
+    assert_int_equal(top->nodes[0].min, volume->minimum);
+    assert_int_equal(top->nodes[0].max, volume->maximum);
+    ang_octree_free(octree);
+}
+
 static void octree_equals_brute_force_for_any_dims(void **state) {
     (void)state;
     static const int sizes[][3] = {{1, 1, 1},   {2, 3, 1},    {8, 8, 8},   {9, 9, 9},   {17, 5, 33},
                                    {64, 1, 70}, {40, 41, 42}, {1, 100, 3}, {65, 66, 7}, {10, 1, 1}};
+    static const int leaves[][3] = {{8, 8, 8}, {3, 5, 2}, {1, 1, 1}, {64, 7, 200}};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++)
-        for (int apron = 1; apron <= 2; apron++) {
+        for (int k = 0; k < 8; k++) {
             ang_volume *volume = make_volume(sizes[s][0], sizes[s][1], sizes[s][2], unit, noise_value);
-            ang_octree *octree = ang_octree_build(volume, apron, 2, NULL);
-            assert_non_null(octree);
-            for (int level = 0; level < octree->levels; level++) {
-                const ang_octree_level *l = &octree->level[level];
-                for (int i = 0, k = 0; k < l->dims[2]; k++)
-                    for (int j = 0; j < l->dims[1]; j++)
-                        for (int x = 0; x < l->dims[0]; x++, i++) {
-                            int leaf[3] = {x, j, k};
-                            ang_minmax expected = brute_force(volume, leaf, ANG_OCTREE_LEAF << level, apron);
-                            assert_int_equal(l->nodes[i].min, expected.min);
-                            assert_int_equal(l->nodes[i].max, expected.max);
-                        }
-            }
-            const ang_octree_level *top = &octree->level[octree->levels - 1];
-            assert_int_equal(top->dims[0] * top->dims[1] * top->dims[2], 1);
-            assert_int_equal(top->nodes[0].min, volume->minimum);
-            assert_int_equal(top->nodes[0].max, volume->maximum);
-            ang_octree_free(octree);
+            check_octree(volume, k / 2 > 0 ? leaves[k / 2] : NULL, 1 + k % 2);
+            check_octree(volume, leaves[k / 2], 5);
             ang_volume_free(volume);
         }
 }

@@ -32,7 +32,7 @@ int main(void) {
         memcpy(copy, volume->data, bytes);
         move[i] = now() - start;
         start = now();
-        ang_octree *octree = ang_octree_build(volume, 1, 0, NULL);
+        ang_octree *octree = ang_octree_build(volume, NULL, 1, 0, NULL);
         build[i] = now() - start;
         ang_octree_free(octree);
     }

@@ -1,0 +1,133 @@
+#include "core/render/scene_parts.h"
+
+#include <glad/gl.h>
+#include <shaders.h>
+
+bool ang_scene_needs_table(const ang_scene *scene) {
+    return scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO;
+}
+
+bool ang_scene_needs_phong(const ang_scene *scene) {
+    return scene->mode == ANG_MODE_ISO || (scene->mode == ANG_MODE_DVR && scene->shading == ANG_SHADING_PHONG);
+}
+
+bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume) {
+    return scene->mode == ANG_MODE_MEAN && volume->padding;
+}
+
+int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume) {
+    if (scene->mode == ANG_MODE_ISO) return 1; /* table and gradient are for the hit alone */
+    return 1 + ang_scene_needs_table(scene) + 6 * ang_scene_needs_phong(scene) + ang_scene_needs_weight(scene, volume);
+}
+
+void ang_parts_field(ang_shader_source *source, bool manual) {
+    ANG_SHADER_ADD(source, field);
+    if (manual) {
+        ANG_SHADER_ADD(source, trilinear);
+        ANG_SHADER_ADD(source, field_manual);
+    } else {
+        ANG_SHADER_ADD(source, field_hardware);
+    }
+}
+
+void ang_parts_classification(ang_shader_source *source, const ang_scene *scene) {
+    if (!ang_scene_needs_table(scene)) {
+        ANG_SHADER_ADD(source, window);
+        return;
+    }
+    ANG_SHADER_ADD(source, transfer);
+    if (ang_scene_needs_phong(scene)) {
+        ANG_SHADER_ADD(source, gradient);
+        ANG_SHADER_ADD(source, shade_phong);
+    } else {
+        ANG_SHADER_ADD(source, shade_none);
+    }
+}
+
+void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual) {
+    if (!ang_scene_needs_weight(scene, volume))
+        ANG_SHADER_ADD(source, weight_one);
+    else if (manual)
+        ANG_SHADER_ADD(source, weight_manual);
+    else
+        ANG_SHADER_ADD(source, weight_hardware);
+}
+
+void ang_uniforms_ray(unsigned program, const ang_ray_frame *frame) {
+    bool perspective = frame->perspective;
+    ang_uniform_vec3(program, "ray_origin", frame->origin);
+    ang_uniform_vec3(program, "ray_step_x", frame->step_x);
+    ang_uniform_vec3(program, "ray_step_y", frame->step_y);
+    ang_uniform_vec3(program, "ray_from_eye", perspective ? ang_vec3_sub(frame->origin, frame->eye) : frame->axis);
+    ang_uniform_vec3(program, "ray_from_eye_mm",
+                     perspective ? ang_vec3_sub(frame->origin_mm, frame->eye_mm) : frame->axis_mm);
+    ang_uniform_vec3(program, "ray_step_x_mm", frame->step_x_mm);
+    ang_uniform_vec3(program, "ray_step_y_mm", frame->step_y_mm);
+    ang_uniform_vec3(program, "ray_axis_mm", frame->axis_mm);
+    ang_uniform_float(program, "ray_spread", perspective ? 1 : 0);
+    ang_uniform_float(program, "ray_near_depth", frame->near_depth);
+    ang_uniform_vec3(program, "box_lower", frame->lower);
+    ang_uniform_vec3(program, "box_upper", frame->upper);
+}
+
+void ang_uniforms_field(unsigned program, const ang_volume_texture *texture, const ang_volume *volume,
+                        const ang_ray_frame *frame) {
+    const int *dims = texture->dims, *first = texture->first;
+    ang_vec3 scale = {1.0 / dims[0], 1.0 / dims[1], 1.0 / dims[2]}, centre = frame->centre;
+    glActiveTexture(GL_TEXTURE0 + ANG_UNIT_FIELD);
+    glBindTexture(GL_TEXTURE_3D, texture->values);
+    ang_uniform_int(program, "field_values", ANG_UNIT_FIELD);
+    ang_uniform_vec3(program, "field_scale", scale);
+    ang_uniform_vec3(program, "field_offset",
+                     (ang_vec3){(centre.x - first[0] + 0.5) * scale.x, (centre.y - first[1] + 0.5) * scale.y,
+                                (centre.z - first[2] + 0.5) * scale.z});
+    ang_uniform_vec3(program, "trilinear_centre", centre);
+    ang_uniform_vec3(program, "trilinear_last",
+                     (ang_vec3){volume->dims[0] - 1.0, volume->dims[1] - 1.0, volume->dims[2] - 1.0});
+    ang_uniform_vec3(program, "trilinear_first", (ang_vec3){first[0], first[1], first[2]});
+    if (!texture->weight) return;
+    glActiveTexture(GL_TEXTURE0 + ANG_UNIT_WEIGHT);
+    glBindTexture(GL_TEXTURE_3D, texture->weight);
+    ang_uniform_int(program, "weight_values", ANG_UNIT_WEIGHT);
+}
+
+static void set_phong(unsigned program, const ang_volume *volume, const ang_scene *scene, const ang_ray_frame *frame) {
+    ang_uniform_transposed(program, "gradient_to_mm", &frame->to_index, 0.5 * volume->slope);
+    ang_uniform_float(program, "phong_ambient", scene->phong.ambient);
+    ang_uniform_float(program, "phong_diffuse", scene->phong.diffuse);
+    ang_uniform_float(program, "phong_specular", scene->phong.specular);
+    ang_uniform_float(program, "phong_power", scene->phong.power);
+    ang_uniform_float(program, "phong_g0", scene->phong.g0);
+}
+
+static void set_window(unsigned program, const ang_volume *volume, const ang_scene *scene) {
+    /* A window of no width is a threshold; its scale must stay finite. */
+    double width = fmax(scene->window_width, 1e-9);
+    ang_uniform_float(program, "window_lower", ang_volume_stored(volume, scene->window_centre - width / 2));
+    ang_uniform_float(program, "window_scale", volume->slope / width);
+}
+
+static void set_mean(unsigned program, const ang_volume *volume) {
+    /* Without padding any base will do: one near the values keeps the sums small. */
+    double base = volume->padding ? ang_volume_padding_value(volume) : 0.5 * (volume->minimum + volume->maximum);
+    ang_uniform_float(program, "mean_base", base);
+    ang_uniform_float(program, "mean_empty", ang_volume_stored(volume, -1000));
+}
+
+static void set_iso(unsigned program, const ang_volume *volume, const ang_scene *scene) {
+    double colour[3];
+    ang_transfer_colour(scene->transfer, scene->iso_hu, colour);
+    ang_uniform_float(program, "iso_stored", ang_volume_stored(volume, scene->iso_hu));
+    ang_uniform_vec3(program, "iso_colour", (ang_vec3){colour[0], colour[1], colour[2]});
+}
+
+void ang_uniforms_scene(unsigned program, const ang_scene *scene, const ang_volume *volume, const ang_ray_frame *frame,
+                        const ang_table_texture *table) {
+    if (ang_scene_needs_table(scene))
+        ang_table_texture_bind(table, program, ANG_UNIT_TABLE);
+    else
+        set_window(program, volume, scene);
+    if (ang_scene_needs_phong(scene)) set_phong(program, volume, scene, frame);
+    if (scene->mode == ANG_MODE_MEAN) set_mean(program, volume);
+    if (scene->mode == ANG_MODE_ISO) set_iso(program, volume, scene);
+}

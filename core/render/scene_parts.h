@@ -1,0 +1,36 @@
+/* Which GLSL parts of shaders/ a scene needs, and its uniforms: one place for all methods. Include only within
+ * core/render/ and its tests. */
+#ifndef ANG_RENDER_SCENE_PARTS_H
+#define ANG_RENDER_SCENE_PARTS_H
+
+#include "core/render/program.h"
+#include "core/render/table_texture.h"
+#include "core/render/volume_texture.h"
+#include "core/scene/scene.h"
+
+/* The texture units that the parts read from; methods take further ones from ANG_UNIT_FREE on. */
+enum { ANG_UNIT_TABLE, ANG_UNIT_FIELD, ANG_UNIT_WEIGHT, ANG_UNIT_FREE };
+
+/* What of a scene costs lookups. */
+bool ang_scene_needs_table(const ang_scene *scene);                            /* dvr, iso */
+bool ang_scene_needs_phong(const ang_scene *scene);                            /* iso, dvr with Phong */
+bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume); /* mean, where there is padding */
+/* Texture lookups of one sample: the field, the table, six for a gradient, the weight. */
+int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume);
+
+/* Parts: field_at; transfer_at and shade, or window_grey; weight_at. */
+void ang_parts_field(ang_shader_source *source, bool manual);
+void ang_parts_classification(ang_shader_source *source, const ang_scene *scene);
+void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual);
+
+/* ray.glsl */
+void ang_uniforms_ray(unsigned program, const ang_ray_frame *frame);
+/* field*.glsl, trilinear.glsl and weight_*.glsl; binds the textures. */
+void ang_uniforms_field(unsigned program, const ang_volume_texture *texture, const ang_volume *volume,
+                        const ang_ray_frame *frame);
+/* Everything else that ang_parts_classification and the modes' parts read: table, Phong, window, iso value, mean.
+ * `table` may be NULL where ang_scene_needs_table says no. */
+void ang_uniforms_scene(unsigned program, const ang_scene *scene, const ang_volume *volume, const ang_ray_frame *frame,
+                        const ang_table_texture *table);
+
+#endif
