@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 struct ang_app_progress {
@@ -115,12 +114,6 @@ bool ang_app_parse_numbers(const char *option, const char *text, int least, int 
     }
     if (*count >= least && *rest == '\0') return true;
     return ang_fail(err, ANG_USAGE, "--%s %s: must be %d to %d numbers separated by commas", option, text, least, most);
-}
-
-double ang_app_now_ms(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
 const char *const *ang_app_preset_folders(void) {

@@ -20,11 +20,12 @@ typedef enum ang_verb {
 typedef struct ang_options {
     const char *output;
     const char *series, *preset, *method, *mode, *shading, *size, *view, *projection, *clip, *background;
-    const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat;
-    double shift, iso, step, zoom, termination, fov, orbit, noise,
+    const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks;
+    double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory,
         threshold; /* NaN where not given and without default */
     int frames, repeat, threads, seed;
-    bool no_termination, manual_filter, strict, annotate, keep_phi, quiet, verbose, help, json_flag;
+    bool no_termination, no_skip, show_bricks, explain, manual_filter, strict, annotate, keep_phi, quiet, verbose, help,
+        json_flag;
     const char **arguments; /* what is not an option, NULL at the end */
     int argument_count;
 } ang_options;

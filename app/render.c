@@ -2,6 +2,7 @@
 #include "app/picture.h"
 #include "app/render_json.h"
 #include "app/verbs.h"
+#include "core/base/clock.h"
 #include "core/render/context.h"
 #include "io/image/annotate.h"
 #include "io/image/image_io.h"
@@ -34,9 +35,9 @@ static bool load(session *run, ang_error *err) {
                             .raw_spacing = options->raw_spacing,
                             .threads = options->threads,
                             .strict = options->strict};
-    double start = ang_app_now_ms();
+    double start = ang_now_ms();
     run->volume = ang_load(options->arguments[0], &how, &run->report, ang_app_progress_sink(run->progress), err);
-    run->summary.load_ms = ang_app_now_ms() - start;
+    run->summary.load_ms = ang_now_ms() - start;
     return run->volume != NULL;
 }
 
@@ -55,9 +56,9 @@ static bool open_renderer(session *run, ang_error *err) {
         run->summary.gl_renderer = ang_gl_renderer(run->gl);
         run->summary.gl_version = ang_gl_version(run->gl);
     }
-    double start = ang_app_now_ms();
-    run->renderer = run->method->create(run->gl, run->volume, err);
-    run->summary.upload_ms = ang_app_now_ms() - start;
+    double start = ang_now_ms();
+    run->renderer = run->method->create(run->gl, run->volume, &run->picture.render, err);
+    run->summary.upload_ms = ang_now_ms() - start;
     return run->renderer != NULL;
 }
 
@@ -79,10 +80,10 @@ static bool render_frame(session *run, frame_progress *frames, ang_frame_stats *
                          ang_error *err) {
     frames->sink = ang_app_progress_sink(run->progress);
     ang_progress progress = {update_frames, frames};
-    double start = ang_app_now_ms();
+    double start = ang_now_ms();
     bool done = run->method->render(run->renderer, &run->picture.scene, &run->picture.render, &run->image, stats,
                                     &progress, err);
-    *milliseconds = ang_app_now_ms() - start;
+    *milliseconds = ang_now_ms() - start;
     return done && (!run->gl || ang_gl_check(run->gl, err));
 }
 
@@ -104,6 +105,23 @@ static void note_empty(session *run) {
         "the picture is empty: the values of the volume, %.6g to %.6g HU, are not visible with this preset, iso "
         "value, clip box or camera",
         ang_volume_hu(run->volume, run->volume->minimum), ang_volume_hu(run->volume, run->volume->maximum));
+}
+
+/* How the first picture was made, for --explain and the JSON. */
+static bool explain(session *run, ang_error *err) {
+    ang_plan *plan = &run->summary.plan;
+    ang_plan_use(plan, "%s: %s", run->method->name, run->method->title);
+    if (!run->method->explain(run->renderer, &run->picture.scene, &run->picture.render, plan, err)) return false;
+    if (!run->method->needs_gl) ang_plan_leave_out(plan, "OpenGL", "this method needs none");
+    ang_plan_leave_out(plan, "window system", "headless");
+    if (!run->options->explain) return true;
+    for (size_t i = 0; i < plan->uses.count; i++) fprintf(stderr, "uses      %s\n", plan->uses.item[i].what);
+    for (size_t i = 0; i < plan->pass_count; i++)
+        fprintf(stderr, "pass      %s: %d lookups a sample; %s\n", plan->pass[i].name, plan->pass[i].lookups,
+                plan->pass[i].parts);
+    for (size_t i = 0; i < plan->left_out.count; i++)
+        fprintf(stderr, "left out  %s: %s\n", plan->left_out.item[i].what, plan->left_out.item[i].why);
+    return true;
 }
 
 static void turn_camera(session *run, double degrees) {
@@ -137,8 +155,14 @@ static bool render_all(session *run, ang_error *err) {
         double milliseconds;
         turn_camera(run, options->orbit * frame / options->frames);
         frame_progress progress = {.what = "rendering", .frame = frame, .frames = options->frames};
-        if (!render_frame(run, &progress, &run->summary.stats, &milliseconds, err)) return false;
-        if (frame == 0) run->summary.first_frame_ms = milliseconds;
+        ang_frame_stats stats = {0};
+        if (!render_frame(run, &progress, &stats, &milliseconds, err)) return false;
+        if (stats.note) ang_notes_add(&run->summary.warnings, "%s", stats.note);
+        if (frame == 0) {
+            run->summary.first_frame_ms = milliseconds;
+            run->summary.stats = stats;
+            if (!explain(run, err)) return false;
+        }
         note_step(run);
         note_empty(run);
         frame_path(options->output, frame, options->frames, path, sizeof path);
@@ -208,6 +232,7 @@ int ang_app_render(const ang_options *options, ang_error *err) {
     if (run.gl) ang_gl_destroy(run.gl);
     ang_image_clear(&run.image);
     ang_picture_clear(&run.picture);
+    ang_plan_clear(&run.summary.plan);
     ang_notes_clear(&run.summary.warnings);
     ang_load_report_clear(&run.report);
     ang_volume_free(run.volume);

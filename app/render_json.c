@@ -23,15 +23,35 @@ void ang_render_summary_times(ang_render_summary *summary, double *milliseconds,
     summary->median_ms = 0.5 * (milliseconds[(count - 1) / 2] + milliseconds[count / 2]);
 }
 
-static void add_left_out(cJSON *list, const char *what, const char *why) {
-    cJSON *entry = cJSON_CreateObject();
-    cJSON_AddStringToObject(entry, "what", what);
-    cJSON_AddStringToObject(entry, "why", why);
-    cJSON_AddItemToArray(list, entry);
+static cJSON *items_json(const ang_plan_items *items) {
+    cJSON *list = cJSON_CreateArray();
+    for (size_t i = 0; i < items->count; i++) {
+        const ang_plan_item *item = &items->item[i];
+        if (!item->why) {
+            cJSON_AddItemToArray(list, cJSON_CreateString(item->what));
+            continue;
+        }
+        cJSON *entry = cJSON_CreateObject();
+        cJSON_AddStringToObject(entry, "what", item->what);
+        cJSON_AddStringToObject(entry, "why", item->why);
+        cJSON_AddItemToArray(list, entry);
+    }
+    return list;
 }
 
-static cJSON *plan_json(const ang_volume *volume, const ang_picture *picture, const ang_method *method,
-                        const ang_render_summary *summary) {
+static cJSON *passes_json(const ang_plan *plan) {
+    cJSON *list = cJSON_CreateArray();
+    for (size_t i = 0; i < plan->pass_count; i++) {
+        cJSON *entry = cJSON_CreateObject();
+        cJSON_AddStringToObject(entry, "name", plan->pass[i].name);
+        cJSON_AddStringToObject(entry, "parts", plan->pass[i].parts);
+        cJSON_AddNumberToObject(entry, "lookups", plan->pass[i].lookups);
+        cJSON_AddItemToArray(list, entry);
+    }
+    return list;
+}
+
+static cJSON *plan_json(const ang_picture *picture, const ang_method *method, const ang_render_summary *summary) {
     const ang_scene *scene = &picture->scene;
     cJSON *plan = cJSON_CreateObject();
     cJSON_AddStringToObject(plan, "method", method->name);
@@ -43,29 +63,11 @@ static cJSON *plan_json(const ang_volume *volume, const ang_picture *picture, co
         cJSON_AddStringToObject(plan, "gl_renderer", summary->gl_renderer);
         cJSON_AddStringToObject(plan, "gl_version", summary->gl_version);
     }
-    bool coloured = scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO;
     bool shaded = scene->mode == ANG_MODE_ISO || (scene->mode == ANG_MODE_DVR && scene->shading == ANG_SHADING_PHONG);
     cJSON_AddStringToObject(plan, "shading", ang_shading_name(shaded ? ANG_SHADING_PHONG : ANG_SHADING_NONE));
-    bool weighted = scene->mode == ANG_MODE_MEAN && volume->padding;
-    cJSON *uses = cJSON_AddArrayToObject(plan, "uses");
-    cJSON *left_out = cJSON_AddArrayToObject(plan, "left_out");
-    cJSON_AddItemToArray(uses, cJSON_CreateString(method->title));
-    if (shaded)
-        cJSON_AddItemToArray(uses, cJSON_CreateString("gradients by central differences, Phong"));
-    else
-        add_left_out(left_out, "gradient lookups",
-                     coloured ? "shading is none" : "this mode shows values, not surfaces");
-    if (weighted)
-        cJSON_AddItemToArray(uses, cJSON_CreateString("weights that leave padding out of the mean"));
-    else
-        add_left_out(left_out, "padding weights", volume->padding ? "only mode mean leaves padding out" : "no padding");
-    if (coloured)
-        cJSON_AddItemToArray(uses, cJSON_CreateString("transfer function"));
-    else
-        add_left_out(left_out, "transfer function", "this mode shows values through the window");
-    add_left_out(left_out, "octree", "this method skips nothing");
-    if (!method->needs_gl) add_left_out(left_out, "OpenGL", "this method needs none");
-    add_left_out(left_out, "window system", "headless");
+    cJSON_AddItemToObject(plan, "uses", items_json(&summary->plan.uses));
+    cJSON_AddItemToObject(plan, "left_out", items_json(&summary->plan.left_out));
+    cJSON_AddItemToObject(plan, "passes", passes_json(&summary->plan));
     return plan;
 }
 
@@ -90,8 +92,8 @@ static cJSON *error_json(const ang_picture *picture, const ang_method *method, c
 static cJSON *time_json(const ang_render_summary *summary) {
     cJSON *time = cJSON_CreateObject();
     ang_json_add_number(time, "load", summary->load_ms);
-    ang_json_add_number(time, "octree", NAN);
-    ang_json_add_number(time, "upload", summary->upload_ms);
+    ang_json_add_number(time, "octree", summary->stats.octree_ms > 0 ? summary->stats.octree_ms : NAN);
+    ang_json_add_number(time, "upload", summary->upload_ms + summary->stats.upload_ms);
     ang_json_add_number(time, "first_frame", summary->first_frame_ms);
     bool timed = summary->timed_frames > 0;
     ang_json_add_number(time, "frame_median", timed ? summary->median_ms : NAN);
@@ -107,14 +109,17 @@ bool ang_render_json_write(const char *path, const ang_volume *volume, const ang
     cJSON *root = cJSON_CreateObject();
     cJSON_AddStringToObject(root, "version", ANG_VERSION);
     cJSON_AddItemToObject(root, "input", ang_load_report_json(volume, report, keep_phi));
-    cJSON_AddItemToObject(root, "plan", plan_json(volume, picture, method, summary));
+    cJSON_AddItemToObject(root, "plan", plan_json(picture, method, summary));
     cJSON_AddItemToObject(root, "error", error_json(picture, method, summary));
     cJSON_AddItemToObject(root, "time_ms", time_json(summary));
     cJSON *counts = cJSON_AddObjectToObject(root, "counts");
     ang_json_add_number(counts, "samples", (double)summary->stats.samples);
-    cJSON_AddNumberToObject(counts, "bricks_drawn", 1);
-    cJSON_AddNumberToObject(counts, "bricks_total", 1);
+    ang_json_add_number(counts, "bricks_drawn", (double)summary->stats.bricks_drawn);
+    ang_json_add_number(counts, "bricks_total", (double)summary->stats.bricks_total);
+    ang_json_add_number(counts, "bricks_uploaded", (double)summary->stats.bricks_uploaded);
     ang_json_add_number(counts, "fragments", (double)summary->stats.fragments);
+    ang_json_add_number(counts, "polygons", (double)summary->stats.polygons);
+    ang_json_add_number(counts, "passes", summary->stats.passes);
     cJSON *warnings = cJSON_AddArrayToObject(root, "warnings");
     for (size_t i = 0; i < summary->warnings.count; i++)
         cJSON_AddItemToArray(warnings, cJSON_CreateString(summary->warnings.text[i]));

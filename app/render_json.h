@@ -5,12 +5,14 @@
 #include "app/picture.h"
 #include "core/render/method.h"
 
-/* Costs of one call. Times in ms; NaN or 0 where not measured. Borrows the gl strings; owns `warnings`. */
+/* Costs of one call. Times in ms; NaN or 0 where not measured. Borrows the gl strings; owns
+ * `plan` and `warnings`. */
 typedef struct ang_render_summary {
     double load_ms, upload_ms, first_frame_ms;
     int timed_frames; /* frames behind the three below */
     double median_ms, min_ms, max_ms;
-    ang_frame_stats stats;
+    ang_frame_stats stats; /* of the first picture */
+    ang_plan plan;
     const char *gl_backend, *gl_renderer, *gl_version; /* NULL without GL */
     ang_notes warnings;
 } ang_render_summary;

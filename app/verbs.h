@@ -31,7 +31,5 @@ bool ang_app_parse_dims(const char *option, const char *text, int count, int *ou
 /* Numbers separated by commas: at least `least`, at most `most`; how many came goes to *count. */
 bool ang_app_parse_numbers(const char *option, const char *text, int least, int most, double *out, int *count,
                            ang_error *err);
-/* Milliseconds of a steady clock. */
-double ang_app_now_ms(void);
 
 #endif

@@ -21,7 +21,7 @@ vec4 march(Ray ray, out float samples) {
             medium = transfer_at(field_at(place));
         } while (medium.a <= 0.0 && i < count);
         float added = (1.0 - opacity) * opacity_of(medium.a * piece);
-        colour += added * shade(medium.rgb, place, ray.direction_mm);
+        colour += added * shade(medium.rgb, place, ray.direction_mm, true);
         opacity += added;
     }
     samples = float(i);

@@ -35,5 +35,5 @@ vec4 march(Ray ray, out float samples) {
         }
         samples += float(iso_refinements);
     }
-    return vec4(shade(colour, start + at * ray.direction, ray.direction_mm), 1.0);
+    return vec4(shade(colour, start + at * ray.direction, ray.direction_mm, true), 1.0);
 }

@@ -38,8 +38,8 @@ static void render_rows(void *context, size_t begin, size_t end, int worker) {
     atomic_fetch_add(&job->samples, samples);
 }
 
-static ang_renderer *create(ang_gl *gl, const ang_volume *volume, ang_error *err) {
-    (void)gl;
+static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_render_options *options, ang_error *err) {
+    (void)gl, (void)options;
     ang_renderer *renderer = ang_alloc(1, sizeof *renderer, "reference renderer", err);
     if (renderer) renderer->volume = volume;
     return renderer;
@@ -54,8 +54,20 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     ang_reference_free(reference);
     if (job.cancelled) return ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering the reference");
     if (stats)
-        *stats =
-            (ang_frame_stats){.samples = job.samples, .fragments = (uint64_t)image->width * (uint64_t)image->height};
+        *stats = (ang_frame_stats){.samples = job.samples,
+                                   .fragments = (uint64_t)image->width * (uint64_t)image->height,
+                                   .bricks_drawn = 1,
+                                   .bricks_total = 1,
+                                   .passes = 1};
+    return true;
+}
+
+static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
+                    ang_error *err) {
+    (void)renderer, (void)options;
+    if (!ang_scene_check(scene, err)) return false;
+    ang_plan_use(plan, "exact integration of every cell in double precision");
+    ang_plan_leave_out(plan, "OpenGL, tables and octree", "the truth must not share their mistakes");
     return true;
 }
 
@@ -67,5 +79,6 @@ const ang_method ang_method_reference = {
     .source = "DESIGN.md, Scene conventions; numerics.md",
     .create = create,
     .render = render,
+    .explain = explain,
     .destroy = destroy,
 };

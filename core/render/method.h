@@ -3,6 +3,8 @@
 #define ANG_RENDER_METHOD_H
 
 #include "core/base/progress.h"
+#include "core/plan/plan.h"
+#include "core/proxy/proxy.h"
 #include "core/scene/image.h"
 #include "core/scene/scene.h"
 
@@ -14,7 +16,12 @@ typedef struct ang_render_options {
     double termination; /* stop a ray at this accumulated opacity, 0 < a <= 1; 1: never; default 0.999 */
     bool manual_filter; /* interpolate by eight fetches instead of the texture unit, to verify filtering; default false
                          */
-    int threads;        /* 0: all */
+    bool no_skip;       /* draw what is invisible too; default false */
+    ang_proxy proxy;    /* slicing: how polygons are cut; default the vertex program */
+    int bricks[3]; /* slicing: bricks along each axis, all visible ones drawn; 0: octree leaves, drawn where it pays */
+    bool show_bricks;  /* slicing: draw the edges of the boxes onto the picture; default false */
+    size_t gpu_memory; /* bytes of textures that the volume may take; default 0: what OpenGL gives */
+    int threads;       /* 0: all */
 } ang_render_options;
 extern const ang_render_options ang_render_options_default;
 
@@ -23,6 +30,13 @@ typedef struct ang_frame_stats {
     uint64_t samples;   /* field evaluations along rays, shading left out */
     uint64_t fragments; /* rays or fragments shaded */
     double step_mm;     /* sampling distance used, greater than asked for where the method has a limit; 0: exact */
+    uint64_t bricks_drawn,
+        bricks_total;            /* boxes drawn, and how many of the smallest there are; 1 of 1 without bricks */
+    uint64_t polygons;           /* slicing: polygons sent to OpenGL */
+    int passes;                  /* times that the picture's pixels were gone over */
+    uint64_t bricks_uploaded;    /* textures filled for this frame */
+    double octree_ms, upload_ms; /* part of the frame's time that went into these */
+    const char *note;            /* a sentence for the user, or NULL; valid until the renderer\'s next call */
 } ang_frame_stats;
 
 typedef struct ang_gl ang_gl;             /* core/render/context.h */
@@ -35,13 +49,17 @@ typedef struct ang_method {
     const char *title;  /* one line */
     const char *source; /* paper */
     bool needs_gl;
-    /* A renderer of this volume, which must outlive it; `gl` is NULL where needs_gl is false. NULL with ANG_GL,
-     * ANG_LIMIT. */
-    ang_renderer *(*create)(ang_gl *gl, const ang_volume *volume, ang_error *err);
+    /* A renderer of this volume, which must outlive it; `gl` is NULL where needs_gl is false. Of `options`, gpu_memory
+     * holds for the renderer's life. NULL with ANG_GL, ANG_LIMIT. */
+    ang_renderer *(*create)(ang_gl *gl, const ang_volume *volume, const ang_render_options *options, ang_error *err);
     /* Renders into `image` (created by the caller with the scene's size). False with ANG_USAGE (ang_scene_check),
      * ANG_GEOMETRY, ANG_LIMIT, ANG_GL, or ANG_INTERRUPTED where `progress` asked for it. `stats` may be NULL. */
     bool (*render)(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err);
+    /* Adds to `plan` what drawing this scene takes and what is left out and why, as `render` would do it. False as
+     * `render`. */
+    bool (*explain)(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
+                    ang_error *err);
     void (*destroy)(ang_renderer *renderer);
 } ang_method;
 
@@ -51,5 +69,6 @@ const ang_method *ang_method_find(const char *name);
 
 extern const ang_method ang_method_reference;
 extern const ang_method ang_method_singlepass;
+extern const ang_method ang_method_slicing;
 
 #endif

@@ -17,6 +17,27 @@ void ang_shader_add(ang_shader_source *source, const char *name, const char *tex
     if (source->count < ANG_SHADER_PARTS) source->parts[source->count++] = (ang_shader_part){name, text};
 }
 
+/* Names without their ending, separated by blanks. */
+static void list_parts(const ang_shader_source *source, char *out, size_t size) {
+    size_t used = 0;
+    out[0] = '\0';
+    for (int i = 0; i < source->count; i++) {
+        int length = (int)strcspn(source->parts[i].name, ".");
+        int written = snprintf(out + used, size - used, "%s%.*s", i ? " " : "", length, source->parts[i].name);
+        used += (size_t)written;
+        if (used >= size) return;
+    }
+}
+
+void ang_shader_explain(ang_plan *plan, const char *pass, const ang_shader_source *vertex,
+                        const ang_shader_source *fragment, int lookups) {
+    char parts[2][512], both[1100];
+    list_parts(vertex, parts[0], sizeof parts[0]);
+    list_parts(fragment, parts[1], sizeof parts[1]);
+    snprintf(both, sizeof both, "%s | %s", parts[0], parts[1]);
+    ang_plan_add_pass(plan, pass, both, lookups);
+}
+
 /* FNV-1a, 64 bits. */
 static uint64_t hash_source(uint64_t hash, const ang_shader_source *source) {
     for (int i = 0; i < source->count; i++)
@@ -119,6 +140,14 @@ void ang_uniform_float(unsigned program, const char *name, double value) {
 
 void ang_uniform_vec3(unsigned program, const char *name, ang_vec3 value) {
     glProgramUniform3f(program, glGetUniformLocation(program, name), (float)value.x, (float)value.y, (float)value.z);
+}
+
+void ang_uniform_vec4(unsigned program, const char *name, ang_vec3 v, double w) {
+    glProgramUniform4f(program, glGetUniformLocation(program, name), (float)v.x, (float)v.y, (float)v.z, (float)w);
+}
+
+void ang_uniform_ints(unsigned program, const char *name, const int *values, int count) {
+    glProgramUniform1iv(program, glGetUniformLocation(program, name), count, values);
 }
 
 void ang_uniform_transposed(unsigned program, const char *name, const ang_mat4 *a, double scale) {

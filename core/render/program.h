@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/math/vec.h"
+#include "core/plan/plan.h"
 #include "core/render/context.h"
 
 #include <stddef.h>
@@ -28,6 +29,10 @@ typedef struct ang_shader_source {
 #define ANG_SHADER_ADD(source, file) ang_shader_add(source, #file ".glsl", ang_shader_##file)
 void ang_shader_add(ang_shader_source *source, const char *name, const char *text);
 
+/* Adds a pass with the names of its parts to the plan. */
+void ang_shader_explain(ang_plan *plan, const char *pass, const ang_shader_source *vertex,
+                        const ang_shader_source *fragment, int lookups);
+
 /* Programs already linked, by the hash of their text. Zero-initialise; owns the programs. */
 typedef struct ang_programs {
     struct ang_program_entry *entries;
@@ -45,6 +50,10 @@ void ang_programs_clear(ang_programs *programs);
 void ang_uniform_int(unsigned program, const char *name, int value);
 void ang_uniform_float(unsigned program, const char *name, double value);
 void ang_uniform_vec3(unsigned program, const char *name, ang_vec3 value);
+/* `v` and, as the fourth, `w`. */
+void ang_uniform_vec4(unsigned program, const char *name, ang_vec3 v, double w);
+/* An array of `count` ints. */
+void ang_uniform_ints(unsigned program, const char *name, const int *values, int count);
 /* The transposed linear part of `a` times `scale`, as a mat3. */
 void ang_uniform_transposed(unsigned program, const char *name, const ang_mat4 *a, double scale);
 

@@ -20,6 +20,23 @@ int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume) {
     return 1 + ang_scene_needs_table(scene) + 6 * ang_scene_needs_phong(scene) + ang_scene_needs_weight(scene, volume);
 }
 
+void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume) {
+    if (ang_scene_needs_table(scene))
+        ang_plan_use(plan, "transfer function");
+    else
+        ang_plan_leave_out(plan, "transfer function", "this mode shows values through the window");
+    if (ang_scene_needs_phong(scene))
+        ang_plan_use(plan, "gradients by central differences, Phong");
+    else
+        ang_plan_leave_out(plan, "gradient lookups", "%s",
+                           scene->mode == ANG_MODE_DVR ? "shading is none" : "this mode shows values, not surfaces");
+    if (ang_scene_needs_weight(scene, volume))
+        ang_plan_use(plan, "weights that leave padding out of the mean");
+    else
+        ang_plan_leave_out(plan, "padding weights", "%s",
+                           volume->padding ? "only mode mean leaves padding out" : "the volume has no padding");
+}
+
 void ang_parts_field(ang_shader_source *source, bool manual) {
     ANG_SHADER_ADD(source, field);
     if (manual) {

@@ -18,6 +18,9 @@ bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume); /
 /* Texture lookups of one sample: the field, the table, six for a gradient, the weight. */
 int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume);
 
+/* Adds to the plan what the scene itself takes and leaves out, whatever the method. */
+void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume);
+
 /* Parts: field_at; transfer_at and shade, or window_grey; weight_at. */
 void ang_parts_field(ang_shader_source *source, bool manual);
 void ang_parts_classification(ang_shader_source *source, const ang_scene *scene);

@@ -36,7 +36,8 @@ static void destroy(ang_renderer *renderer) {
     free(renderer);
 }
 
-static ang_renderer *create(ang_gl *gl, const ang_volume *volume, ang_error *err) {
+static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_render_options *options, ang_error *err) {
+    (void)options;
     if (!gl) {
         ang_fail(err, ANG_GL, "--method singlepass needs OpenGL: choose another --backend, or --method reference");
         return NULL;
@@ -89,6 +90,13 @@ static ang_shader_source compose(const ang_scene *scene, const ang_volume *volum
     return source;
 }
 
+static ang_shader_source compose_vertex(void) {
+    ang_shader_source vertex = {.count = 0};
+    ANG_SHADER_ADD(&vertex, version);
+    ANG_SHADER_ADD(&vertex, triangle);
+    return vertex;
+}
+
 /* Textures and target for this scene; 0 with an error, or the program. */
 static GLuint prepare(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, bool counting,
                       ang_error *err) {
@@ -99,10 +107,10 @@ static GLuint prepare(ang_renderer *renderer, const ang_scene *scene, const ang_
     if (ang_scene_needs_weight(scene, volume) &&
         !ang_volume_texture_add_weight(&renderer->field, renderer->gl, volume, err))
         return 0;
-    if (!ang_target_resize(&renderer->target, renderer->gl, scene->width, scene->height, counting, err)) return 0;
-    ang_shader_source vertex = {.count = 0};
-    ANG_SHADER_ADD(&vertex, version);
-    ANG_SHADER_ADD(&vertex, triangle);
+    if (!ang_target_resize(&renderer->target, renderer->gl, scene->width, scene->height,
+                           counting ? ANG_TARGET_COUNTS : 0, err))
+        return 0;
+    ang_shader_source vertex = compose_vertex();
     ang_shader_source fragment = compose(scene, volume, options->manual_filter, counting);
     return ang_programs_get(&renderer->programs, "singlepass", &vertex, &fragment, err);
 }
@@ -154,7 +162,9 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     if (!ang_scene_check(scene, err) || !ang_ray_frame_make(renderer->volume, scene, &frame, err)) return false;
     GLuint program = prepare(renderer, scene, options, stats != NULL, err);
     if (!program) return false;
-    if (stats) *stats = (ang_frame_stats){.step_mm = step_used(renderer->volume, options)};
+    if (stats)
+        *stats = (ang_frame_stats){
+            .step_mm = step_used(renderer->volume, options), .bricks_drawn = 1, .bricks_total = 1, .passes = 1};
 
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer);
     glViewport(0, 0, renderer->target.width, renderer->target.height);
@@ -173,6 +183,21 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     return ok && ang_gl_check(renderer->gl, err);
 }
 
+static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
+                    ang_error *err) {
+    if (!ang_scene_check(scene, err)) return false;
+    const ang_volume *volume = renderer->volume;
+    ang_plan_use(plan, "one 3D texture of 16 bits for the whole volume");
+    ang_scene_explain(plan, scene, volume);
+    ang_plan_leave_out(plan, "skipping of invisible blocks", "this method is the baseline and skips nothing");
+    if (scene->mode == ANG_MODE_DVR && !(options->termination < 1))
+        ang_plan_leave_out(plan, "early termination", "--no-termination");
+    ang_shader_source vertex = compose_vertex();
+    ang_shader_source fragment = compose(scene, volume, options->manual_filter, false);
+    ang_shader_explain(plan, "rays", &vertex, &fragment, ang_scene_lookups(scene, volume));
+    return true;
+}
+
 const ang_method ang_method_singlepass = {
     .name = "singlepass",
     .title = "one fragment-shader loop over the box, no skipping: the baseline that others are compared with",
@@ -180,5 +205,6 @@ const ang_method ang_method_singlepass = {
     .needs_gl = true,
     .create = create,
     .render = render,
+    .explain = explain,
     .destroy = destroy,
 };

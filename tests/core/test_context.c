@@ -124,7 +124,7 @@ static void read_voxels(ang_gl *gl, const ang_volume *volume, bool manual, ang_i
     ang_target target = {0};
     ang_programs programs = {0};
     if (!ang_volume_texture_create(&texture, gl, volume, &err)) fail_msg("%s", err.message);
-    assert_true(ang_target_resize(&target, gl, image->width, image->height, false, &err));
+    assert_true(ang_target_resize(&target, gl, image->width, image->height, 0, &err));
     ang_shader_source vertex = {.count = 0}, fragment = {.count = 0};
     ANG_SHADER_ADD(&vertex, version);
     ANG_SHADER_ADD(&vertex, triangle);
@@ -222,7 +222,7 @@ static void volumes_beyond_the_limit_are_refused(void **state) {
         assert_int_equal(err.code, ANG_LIMIT);
         assert_int_equal(texture.values, 0);
         ang_target target = {0};
-        assert_false(ang_target_resize(&target, gl, 1 << 20, 4, false, &err));
+        assert_false(ang_target_resize(&target, gl, 1 << 20, 4, 0, &err));
         assert_int_equal(err.code, ANG_LIMIT);
         assert_true(ang_gl_check(gl, NULL));
         ang_volume_free(volume);

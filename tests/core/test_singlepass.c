@@ -28,7 +28,7 @@ static const ang_render_options exact = {.step_voxels = 0.5, .termination = 1};
 
 static ang_renderer *open_renderer(ang_gl *gl, const ang_volume *volume) {
     ang_error err = {0};
-    ang_renderer *renderer = ang_method_singlepass.create(gl, volume, &err);
+    ang_renderer *renderer = ang_method_singlepass.create(gl, volume, &ang_render_options_default, &err);
     if (!renderer) fail_msg("%s", err.message);
     return renderer;
 }
@@ -408,7 +408,7 @@ static void refusals_and_interruption(void **state) {
     options.step_voxels = 0;
     assert_false(ang_method_singlepass.render(renderer, &scene, &options, &image, NULL, NULL, &err));
     assert_int_equal(err.code, ANG_USAGE);
-    assert_null(ang_method_singlepass.create(NULL, volume, &err));
+    assert_null(ang_method_singlepass.create(NULL, volume, &ang_render_options_default, &err));
     assert_int_equal(err.code, ANG_GL);
     assert_true(ang_method_find("singlepass") == &ang_method_singlepass);
     assert_null(ang_method_find("telepathy"));

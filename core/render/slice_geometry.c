@@ -1,0 +1,365 @@
+#include "core/render/slice_geometry.h"
+
+#include "core/base/memory.h"
+#include "core/render/program.h"
+
+#include <glad/gl.h>
+#include <shaders.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    POINTS = 6,         /* of a polygon: Rezk-Salama & Kolb, section 4 */
+    FAN_INDICES = 12,   /* four triangles */
+    STRETCH_PLANES = 64 /* of an instance; boxes with more are several instances */
+};
+
+typedef struct instance {
+    float lower[3], upper[3], owner_lower[3], owner_upper[3];
+    int32_t first, count;
+} instance;
+
+typedef struct vertex {
+    float place[3];
+    int32_t plane;
+    float owner_lower[3], owner_upper[3];
+} vertex;
+
+/* What grows while the geometry is made. */
+typedef struct builder {
+    ang_slice_geometry *geometry;
+    const ang_slice_planes *planes;
+    const ang_ray_frame *frame;
+    const ang_slice_order *order;
+    double pad_index[3]; /* index units in one mm across the faces of a box */
+    double pad[2];       /* mm: at depth 0, and more for each mm of depth */
+    char *items;         /* instances or vertices */
+    size_t count, capacity, size;
+    ang_error *err;
+} builder;
+
+static void make_static(ang_slice_geometry *geometry) {
+    uint8_t corners[STRETCH_PLANES * POINTS][2];
+    uint16_t indices[STRETCH_PLANES * FAN_INDICES];
+    for (int plane = 0; plane < STRETCH_PLANES; plane++) {
+        for (int point = 0; point < POINTS; point++) {
+            corners[plane * POINTS + point][0] = (uint8_t)point;
+            corners[plane * POINTS + point][1] = (uint8_t)plane;
+        }
+        for (int i = 0; i < FAN_INDICES; i++) {
+            static const int fan[FAN_INDICES] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5};
+            indices[plane * FAN_INDICES + i] = (uint16_t)(plane * POINTS + fan[i]);
+        }
+    }
+    glGenVertexArrays(1, &geometry->box_vertices);
+    glBindVertexArray(geometry->box_vertices);
+    glGenBuffers(1, &geometry->corners);
+    glBindBuffer(GL_ARRAY_BUFFER, geometry->corners);
+    glBufferData(GL_ARRAY_BUFFER, sizeof corners, corners, GL_STATIC_DRAW);
+    glEnableVertexAttribArray(0);
+    glVertexAttribIPointer(0, 2, GL_UNSIGNED_BYTE, 2, NULL);
+    glGenBuffers(1, &geometry->indices);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry->indices);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, sizeof indices, indices, GL_STATIC_DRAW);
+}
+
+static void float_attribute(GLuint index, GLsizei stride, size_t offset, GLuint divisor) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, stride, (const void *)offset);
+    glVertexAttribDivisor(index, divisor);
+}
+
+static void int_attribute(GLuint index, GLint count, GLsizei stride, size_t offset, GLuint divisor) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribIPointer(index, count, GL_INT, stride, (const void *)offset);
+    glVertexAttribDivisor(index, divisor);
+}
+
+static void make_arrays(ang_slice_geometry *geometry) {
+    make_static(geometry);
+    glGenBuffers(1, &geometry->boxes);
+    glBindBuffer(GL_ARRAY_BUFFER, geometry->boxes);
+    float_attribute(1, sizeof(instance), offsetof(instance, lower), 1);
+    float_attribute(2, sizeof(instance), offsetof(instance, upper), 1);
+    float_attribute(3, sizeof(instance), offsetof(instance, owner_lower), 1);
+    float_attribute(4, sizeof(instance), offsetof(instance, owner_upper), 1);
+    int_attribute(5, 2, sizeof(instance), offsetof(instance, first), 1);
+
+    glGenVertexArrays(1, &geometry->poly_vertices);
+    glBindVertexArray(geometry->poly_vertices);
+    glGenBuffers(1, &geometry->polygons);
+    glBindBuffer(GL_ARRAY_BUFFER, geometry->polygons);
+    float_attribute(0, sizeof(vertex), offsetof(vertex, place), 0);
+    int_attribute(1, 1, sizeof(vertex), offsetof(vertex, plane), 0);
+    float_attribute(2, sizeof(vertex), offsetof(vertex, owner_lower), 0);
+    float_attribute(3, sizeof(vertex), offsetof(vertex, owner_upper), 0);
+    glBindVertexArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+}
+
+static void *grow(builder *b, size_t more) {
+    if (b->count + more > b->capacity) {
+        size_t wanted = b->capacity ? 2 * b->capacity : 4096;
+        char *grown = realloc(b->items, wanted * b->size);
+        if (!grown) {
+            ang_fail(b->err, ANG_LIMIT, "no memory for the polygons of the slices; use a larger --step");
+            return NULL;
+        }
+        b->items = grown;
+        b->capacity = wanted;
+    }
+    void *place = b->items + b->count * b->size;
+    b->count += more;
+    return place;
+}
+
+/* The samples that a box owns, in float: within the clip box, whose upper faces belong to it. */
+static void store_owner(const ang_ray_frame *frame, const ang_slice_box *box, float lower[3], float upper[3]) {
+    for (int axis = 0; axis < 3; axis++) {
+        float clip_lower = (float)ang_vec3_at(frame->lower, axis), clip_upper = (float)ang_vec3_at(frame->upper, axis);
+        float from = (float)ang_vec3_at(box->owner_lower, axis), to = (float)ang_vec3_at(box->owner_upper, axis);
+        lower[axis] = fmaxf(from, clip_lower);
+        upper[axis] = to > clip_upper ? nextafterf(clip_upper, INFINITY) : to;
+    }
+}
+
+static void store(float out[3], ang_vec3 v) {
+    out[0] = (float)v.x;
+    out[1] = (float)v.y;
+    out[2] = (float)v.z;
+}
+
+/* Stretches of 5 to 8 planes share draws, of 9 to 16, ...: fewer vertices are wasted than draws are saved. */
+static int planes_class(int planes) {
+    int size = 4;
+    while (size < planes) size *= 2;
+    return size;
+}
+
+/* The draw to which the next polygons of this box belong: the last one, or a new one. */
+static ang_slice_draw *open_draw(builder *b, const ang_slice_box *box, const ang_slice_box *before, int planes,
+                                 bool faces) {
+    ang_slice_geometry *geometry = b->geometry;
+    ang_slice_draw *last = geometry->draws ? &geometry->draw[geometry->draws - 1] : NULL;
+    if (last && last->faces == faces && last->samples < b->order->most_samples &&
+        planes_class(last->planes) == planes_class(planes) &&
+        (before == box || b->order->same_texture(b->order->context, before, box)))
+        return last;
+    if (geometry->draws == geometry->capacity) {
+        size_t wanted = geometry->capacity ? 2 * geometry->capacity : 64;
+        ang_slice_draw *grown = realloc(geometry->draw, wanted * sizeof *grown);
+        if (!grown) {
+            ang_fail(b->err, ANG_LIMIT, "no memory for the polygons of the slices; use a larger --step");
+            return NULL;
+        }
+        geometry->draw = grown;
+        geometry->capacity = wanted;
+    }
+    ang_slice_draw *draw = &geometry->draw[geometry->draws++];
+    *draw = (ang_slice_draw){.level = box->level,
+                             .node = {box->node[0], box->node[1], box->node[2]},
+                             .first = (int)b->count,
+                             .faces = faces};
+    return draw;
+}
+
+static bool add_instance(builder *b, const ang_slice_box *box, int begin, int end) {
+    instance *out = grow(b, 1);
+    if (!out) return false;
+    store(out->lower, box->lower);
+    store(out->upper, box->upper);
+    store_owner(b->frame, box, out->owner_lower, out->owner_upper);
+    out->first = begin;
+    out->count = end - begin;
+    return true;
+}
+
+static double pad_at(const builder *b, double depth) { return b->pad[0] + b->pad[1] * depth; }
+
+/* The polygons of planes [begin, end) in the box, cut here. */
+static bool add_polygons(builder *b, const ang_slice_box *box, int begin, int end) {
+    double least, greatest;
+    ang_slice_depths(b->planes, box->lower, box->upper, &least, &greatest);
+    double pad = fmax(pad_at(b, least), pad_at(b, greatest));
+    ang_vec3 wider = {pad * b->pad_index[0], pad * b->pad_index[1], pad * b->pad_index[2]};
+    ang_slicer slicer;
+    ang_slicer_make(&slicer, ang_vec3_sub(box->lower, wider), ang_vec3_add(box->upper, wider), b->planes->gradient);
+    float owner_lower[3], owner_upper[3];
+    store_owner(b->frame, box, owner_lower, owner_upper);
+    for (int i = begin; i < end; i++) {
+        int plane = b->order->back_to_front ? end - 1 - (i - begin) : i;
+        ang_vec3 triangles[ANG_PROXY_MOST_TRIANGLES][3];
+        double depth = b->planes->first + plane * b->planes->distance - b->planes->offset;
+        int count = ang_proxy_slice(&b->geometry->tables, b->order->proxy, &slicer, depth, triangles);
+        if (count == 0) continue;
+        vertex *out = grow(b, 3 * (size_t)count);
+        if (!out) return false;
+        for (int v = 0; v < 3 * count; v++) {
+            store(out[v].place, triangles[v / 3][v % 3]);
+            out[v].plane = plane;
+            memcpy(out[v].owner_lower, owner_lower, sizeof owner_lower);
+            memcpy(out[v].owner_upper, owner_upper, sizeof owner_upper);
+        }
+    }
+    return true;
+}
+
+static bool add_box(builder *b, const ang_slice_box *box, const ang_slice_box *before) {
+    int planes = box->end - box->begin, stretches = (planes + STRETCH_PLANES - 1) / STRETCH_PLANES;
+    for (int i = 0; i < stretches; i++) {
+        int stretch = b->order->back_to_front ? stretches - 1 - i : i;
+        int begin = box->begin + stretch * STRETCH_PLANES;
+        int end = begin + STRETCH_PLANES < box->end ? begin + STRETCH_PLANES : box->end;
+        /* The first and the last plane have a neighbour on one side only. */
+        bool faces = box->faces || begin == 0 || end == b->planes->count;
+        ang_slice_draw *draw = open_draw(b, box, i > 0 ? box : before, end - begin, faces);
+        if (!draw) return false;
+        bool ok = b->order->proxy == ANG_PROXY_VERTEX_PROGRAM ? add_instance(b, box, begin, end)
+                                                              : add_polygons(b, box, begin, end);
+        if (!ok) return false;
+        draw->count = (int)b->count - draw->first;
+        if (end - begin > draw->planes) draw->planes = end - begin;
+        draw->samples += box->samples * (end - begin) / planes;
+        draw->polygons += (uint64_t)(end - begin);
+    }
+    return true;
+}
+
+/* Widens boxes by an eighth of a pixel, many times what a rasteriser's grid of sub-pixels is off by, and by far more
+ * than positions in float are. Planes are parallel to the picture, so that what is pushed out across a face is pushed
+ * out at least as far within a plane. */
+static void set_pads(builder *b) {
+    const ang_ray_frame *frame = b->frame;
+    double pixel = ang_vec3_length(frame->step_x_mm) / 8;
+    ang_vec3 diagonal = ang_mat4_direction(&frame->to_mm, ang_vec3_sub(frame->upper, frame->lower));
+    b->pad[0] = pixel + 4e-6 * ang_vec3_length(diagonal);
+    b->pad[1] = 0;
+    if (frame->perspective)
+        b->pad[1] = pixel / ang_vec3_dot(ang_vec3_sub(frame->origin_mm, frame->eye_mm), frame->axis_mm);
+    for (int axis = 0; axis < 3; axis++) {
+        const double *row = frame->to_index.m[axis];
+        b->pad_index[axis] = sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+    }
+}
+
+static bool add_boxes(builder *b, const ang_slice_boxes *boxes) {
+    const ang_slice_box *before = NULL;
+    for (size_t i = 0; i < boxes->count; i++) {
+        const ang_slice_box *box = &boxes->box[b->order->back_to_front ? boxes->count - 1 - i : i];
+        if (!add_box(b, box, before ? before : box)) return false;
+        before = box;
+    }
+    return true;
+}
+
+bool ang_slice_geometry_make(ang_slice_geometry *geometry, ang_gl *gl, const ang_slice_boxes *boxes,
+                             const ang_slice_planes *planes, const ang_ray_frame *frame, const ang_slice_order *order,
+                             ang_error *err) {
+    if (!geometry->tables_made) {
+        ang_proxy_tables_make(&geometry->tables);
+        make_arrays(geometry);
+        geometry->tables_made = true;
+    }
+    bool instanced = order->proxy == ANG_PROXY_VERTEX_PROGRAM;
+    builder b = {.geometry = geometry,
+                 .planes = planes,
+                 .frame = frame,
+                 .order = order,
+                 .size = instanced ? sizeof(instance) : sizeof(vertex),
+                 .err = err};
+    set_pads(&b);
+    geometry->draws = 0;
+    bool ok = add_boxes(&b, boxes);
+    if (ok) {
+        glBindBuffer(GL_ARRAY_BUFFER, instanced ? geometry->boxes : geometry->polygons);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(b.count * b.size), b.items, GL_STREAM_DRAW);
+        glBindBuffer(GL_ARRAY_BUFFER, 0);
+        ok = ang_gl_check(gl, err);
+    }
+    free(b.items);
+    return ok;
+}
+
+void ang_slice_geometry_destroy(ang_slice_geometry *geometry) {
+    GLuint buffers[] = {geometry->corners, geometry->indices, geometry->boxes, geometry->polygons};
+    GLuint arrays[] = {geometry->box_vertices, geometry->poly_vertices};
+    glDeleteBuffers(4, buffers);
+    glDeleteVertexArrays(2, arrays);
+    free(geometry->draw);
+    *geometry = (ang_slice_geometry){0};
+}
+
+void ang_slice_geometry_parts(ang_proxy proxy, ang_shader_source *vertex) {
+    ANG_SHADER_ADD(vertex, slice_planes);
+    ANG_SHADER_ADD(vertex, slice_project);
+    if (proxy == ANG_PROXY_VERTEX_PROGRAM)
+        ANG_SHADER_ADD(vertex, slice_box);
+    else
+        ANG_SHADER_ADD(vertex, slice_polygon);
+}
+
+void ang_slice_geometry_uniforms(const ang_slice_geometry *geometry, unsigned program, const ang_slice_planes *planes,
+                                 const ang_ray_frame *frame, const ang_clip_space *space,
+                                 const ang_slice_order *order) {
+    builder b = {.frame = frame};
+    set_pads(&b);
+    ang_uniforms_clip_space(program, space);
+    ang_uniform_vec4(program, "slice_gradient", planes->gradient, planes->offset);
+    int front = 0;
+    for (int axis = 0; axis < 3; axis++) front |= ang_vec3_at(planes->gradient, axis) < 0 ? 1 << axis : 0;
+    ang_uniform_int(program, "slice_front", front);
+    ang_uniform_vec3(program, "slice_pad_index", (ang_vec3){b.pad_index[0], b.pad_index[1], b.pad_index[2]});
+    glProgramUniform2f(program, glGetUniformLocation(program, "slice_pad"), (float)b.pad[0], (float)b.pad[1]);
+    ang_uniform_int(program, "slice_reverse", order->back_to_front);
+    ang_uniform_ints(program, "vertex_sequence", &geometry->tables.sequence[0][0], 64);
+    ang_uniform_ints(program, "edge_from", geometry->tables.v1, 24);
+    ang_uniform_ints(program, "edge_to", geometry->tables.v2, 24);
+}
+
+void ang_slice_geometry_draw(const ang_slice_geometry *geometry, const ang_slice_draw *draw, ang_proxy proxy) {
+    if (proxy == ANG_PROXY_VERTEX_PROGRAM) {
+        glBindVertexArray(geometry->box_vertices);
+        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, FAN_INDICES * draw->planes, GL_UNSIGNED_SHORT, NULL,
+                                            draw->count, (GLuint)draw->first);
+    } else {
+        glBindVertexArray(geometry->poly_vertices);
+        glDrawArrays(GL_TRIANGLES, draw->first, draw->count);
+    }
+    glBindVertexArray(0);
+}
+
+bool ang_slice_geometry_draw_edges(const ang_slice_boxes *boxes, const ang_octree *octree, const ang_ray_frame *frame,
+                                   ang_error *err) {
+    float *corners = ang_alloc(boxes->nodes, 6 * sizeof *corners, "edges of boxes", err);
+    if (!corners) return false;
+    size_t nodes = 0;
+    for (size_t i = 0; i < boxes->count; i++) {
+        const ang_slice_box *box = &boxes->box[i];
+        ang_vec3 lower, upper;
+        bool again = i > 0 && box->level == box[-1].level && memcmp(box->node, box[-1].node, sizeof box->node) == 0;
+        if (again || !ang_slice_node_bounds(octree, frame, box->level, box->node, &lower, &upper)) continue;
+        store(corners + 6 * nodes, lower);
+        store(corners + 6 * nodes++ + 3, upper);
+    }
+    GLuint array, buffer;
+    glGenVertexArrays(1, &array);
+    glBindVertexArray(array);
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(nodes * 6 * sizeof *corners), corners, GL_STREAM_DRAW);
+    float_attribute(0, 6 * sizeof *corners, 0, 1);
+    float_attribute(1, 6 * sizeof *corners, 3 * sizeof *corners, 1);
+    glDrawArraysInstanced(GL_LINES, 0, 24, (GLsizei)nodes);
+    glBindVertexArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+    glDeleteBuffers(1, &buffer);
+    glDeleteVertexArrays(1, &array);
+    free(corners);
+    return true;
+}
+
+void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space) {
+    ang_uniform_vec4(program, "clip_x", space->x.gradient, space->x.constant);
+    ang_uniform_vec4(program, "clip_y", space->y.gradient, space->y.constant);
+    ang_uniform_vec4(program, "clip_w", space->w.gradient, space->w.constant);
+}

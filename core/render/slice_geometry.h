@@ -1,0 +1,65 @@
+/* The polygons of slicing on the GL side. Include only within core/render/ and its tests. */
+#ifndef ANG_RENDER_SLICE_GEOMETRY_H
+#define ANG_RENDER_SLICE_GEOMETRY_H
+
+#include "core/plan/boxes.h"
+#include "core/proxy/proxy.h"
+#include "core/render/context.h"
+#include "core/render/program.h"
+#include "core/scene/clip_space.h"
+
+/* A stretch of the geometry that one draw call takes, all of boxes in one texture. */
+typedef struct ang_slice_draw {
+    int level, node[3]; /* the first of its boxes: which texture */
+    int first, count;   /* instances, or vertices where the CPU cut the polygons */
+    int planes;         /* vertex program: planes of the instance that has the most */
+    bool faces;     /* a box is so near to a face of the clip box that a sample may be the first or last of its ray */
+    double samples; /* estimate: fragments */
+    uint64_t polygons;
+} ang_slice_draw;
+
+/* Zero-initialise; owns its GL objects. */
+typedef struct ang_slice_geometry {
+    unsigned corners, indices;            /* static: the six points of each plane, and the triangles between them */
+    unsigned boxes, polygons;             /* per frame: instances; vertices cut on the CPU */
+    unsigned box_vertices, poly_vertices; /* vertex arrays */
+    ang_slice_draw *draw;                 /* in the order in which they blend */
+    size_t draws, capacity;
+    ang_proxy_tables tables;
+    bool tables_made;
+} ang_slice_geometry;
+
+/* How the polygons are to be made. */
+typedef struct ang_slice_order {
+    ang_proxy proxy;
+    bool back_to_front;
+    ang_vec3 margin;     /* index units that a ray moves from one plane to the next, at most */
+    double most_samples; /* a draw takes no more than about this many, so that it can be interrupted or followed by a
+                            pass that finishes pixels */
+    /* Whether two boxes lie in one texture. */
+    bool (*same_texture)(const void *context, const ang_slice_box *a, const ang_slice_box *b);
+    const void *context;
+} ang_slice_order;
+
+/* Fills the buffers for these boxes. Boxes are widened by `pad` so that rounding never loses a pixel at their rims; the
+ * fragments decide what is theirs. False with ANG_LIMIT or ANG_GL. */
+bool ang_slice_geometry_make(ang_slice_geometry *geometry, ang_gl *gl, const ang_slice_boxes *boxes,
+                             const ang_slice_planes *planes, const ang_ray_frame *frame, const ang_slice_order *order,
+                             ang_error *err);
+void ang_slice_geometry_destroy(ang_slice_geometry *geometry);
+
+/* The vertex shader's parts of this proxy, and the uniforms of a program with them. */
+void ang_slice_geometry_parts(ang_proxy proxy, ang_shader_source *vertex);
+void ang_slice_geometry_uniforms(const ang_slice_geometry *geometry, unsigned program, const ang_slice_planes *planes,
+                                 const ang_ray_frame *frame, const ang_clip_space *space, const ang_slice_order *order);
+
+/* Draws one stretch with the program in use. */
+void ang_slice_geometry_draw(const ang_slice_geometry *geometry, const ang_slice_draw *draw, ang_proxy proxy);
+/* The twelve edges of every node that boxes come from, as lines, with a program of edge.glsl in use. False with
+ * ANG_LIMIT. */
+bool ang_slice_geometry_draw_edges(const ang_slice_boxes *boxes, const ang_octree *octree, const ang_ray_frame *frame,
+                                   ang_error *err);
+/* The uniforms of slice_project.glsl and edge.glsl. */
+void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space);
+
+#endif

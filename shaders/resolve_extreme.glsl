@@ -1,0 +1,3 @@
+float resolve_value(vec4 accumulated) {
+    return accumulated.r;
+}

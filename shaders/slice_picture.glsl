@@ -1,0 +1,8 @@
+layout(location = 0) out vec4 picture;
+
+void main() {
+    vec2 pixel = gl_FragCoord.xy;
+    Slab slab;
+    if (!slab_at(pixel, slice_plane, slab) || !slice_owns(slab.place)) discard;
+    picture = slice_value(pixel, slab);
+}

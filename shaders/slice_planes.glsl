@@ -1,0 +1,8 @@
+// The planes of slicing: ang_slice_planes of core/plan/planes.h in float.
+uniform float slice_first;    // mm along the axis from the plane of p
+uniform float slice_distance; // mm
+uniform int slice_count;
+
+float slice_depth(int plane) {
+    return slice_first + float(plane) * slice_distance;
+}

@@ -1,0 +1,474 @@
+/* Slicing against itself where pictures must be the same bits, and against closed forms; on every backend here. That it
+ * shows the reference's picture is test_methods' business. */
+#include "tests/core/fixtures.h"
+
+#include "core/plan/planes.h"
+#include "core/render/context.h"
+#include "core/render/method.h"
+
+#include <string.h>
+
+enum { width = 61, height = 48 };
+
+static double flat_value(int x, int y, int z) {
+    (void)x, (void)y, (void)z;
+    return 100;
+}
+
+/* Vessels, as it were: a third of the volume is invisible at 150 HU. */
+static double sparse_value(int x, int y, int z) {
+    double wave = sin(0.35 * x + 0.5 * sin(0.2 * z)) * cos(0.31 * y) * sin(0.23 * z + 0.4);
+    return wave > 0.2 ? 100 + 500 * wave : -50 + 3 * ((x + 2 * y + 3 * z) % 7);
+}
+
+static ang_transfer *vessels(void) {
+    static const ang_transfer_point points[] = {{.hu = 150, .colour = {0.6, 0.1, 0.05}, .opacity = 0},
+                                                {.hu = 300, .colour = {0.9, 0.4, 0.2}, .opacity = 0.15},
+                                                {.hu = 600, .colour = {1, 0.95, 0.9}, .opacity = 0.6}};
+    return ang_transfer_create(points, 3, 1, false, NULL, NULL);
+}
+
+static const ang_render_options exact = {.step_voxels = 0.5, .termination = 1};
+
+/* `*state` is the context, NULL where the backend is not here. */
+#define open_gl(state)                                                                                                 \
+    ang_gl *gl = *(state);                                                                                             \
+    if (!gl) skip()
+
+static ang_renderer *open_renderer(ang_gl *gl, const ang_volume *volume, const ang_render_options *options) {
+    ang_error err = {0};
+    ang_renderer *renderer = ang_method_slicing.create(gl, volume, options, &err);
+    if (!renderer) fail_msg("%s", err.message);
+    return renderer;
+}
+
+static ang_image draw(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                      ang_frame_stats *stats) {
+    ang_error err = {0};
+    ang_image image;
+    assert_true(ang_image_create(&image, scene->width, scene->height, &err));
+    if (!ang_method_slicing.render(renderer, scene, options, &image, stats, NULL, &err)) fail_msg("%s", err.message);
+    for (int i = 0; i < 4 * image.width * image.height; i++) assert_true(isfinite(image.rgba[i]));
+    return image;
+}
+
+/* The greatest difference of two pictures; clears the second. */
+static double difference(const ang_image *a, ang_image *b) {
+    double greatest = 0;
+    for (int i = 0; i < 4 * a->width * a->height; i++) greatest = fmax(greatest, fabs((double)a->rgba[i] - b->rgba[i]));
+    ang_image_clear(b);
+    return greatest;
+}
+
+/* The same scene again under other options. */
+static double changed_by(ang_renderer *renderer, const ang_scene *scene, const ang_image *image,
+                         const ang_render_options *options, ang_frame_stats *stats) {
+    ang_image other = draw(renderer, scene, options, stats);
+    return difference(image, &other);
+}
+
+static ang_volume *sheared_volume(double (*value)(int, int, int)) {
+    static const double spacing[3] = {0.8, 0.9, 1.4};
+    ang_volume *volume = make_volume(44, 39, 30, spacing, value);
+    volume->affine.m[1][2] = 0.5;
+    return volume;
+}
+
+enum { SCENES = 4 };
+/* Perspective, parallel along an axis, clipped, and from inside. */
+static ang_scene make_scene(int which, const ang_volume *volume, const ang_transfer *transfer) {
+    static const char *const views[SCENES] = {"33,21,10", "left", "-140,-35", "20,5"};
+    ang_scene scene = ang_scene_default(volume);
+    ang_view view = ang_view_default;
+    assert_true(ang_view_parse(views[which], &view, NULL));
+    if (which == 1) view.projection = ANG_PARALLEL;
+    scene.camera = ang_camera_for(volume, &view);
+    if (which == 2) assert_true(ang_scene_clip_parse("20%,90%,10%,80%,30%,75%", volume, &scene, NULL));
+    if (which == 3) {
+        scene.camera.eye = ang_vec3_along(ang_volume_centre(volume), scene.camera.forward, 1.5);
+        scene.camera.fov_deg = 80;
+    }
+    scene.width = width;
+    scene.height = height;
+    scene.transfer = transfer;
+    scene.iso_hu = 220;
+    scene.window_centre = 300;
+    scene.window_width = 500;
+    return scene;
+}
+
+/* Millimetres of a pixel's ray in the box. */
+static double ray_length(const ang_volume *volume, const ang_scene *scene, int pixel) {
+    ang_ray_frame frame;
+    assert_true(ang_ray_frame_make(volume, scene, &frame, NULL));
+    ang_ray ray = ang_ray_through(&frame, pixel % scene->width + 0.5, pixel / scene->width + 0.5);
+    return fmax(ray.leave - ray.enter, 0);
+}
+
+static void homogeneous_media_at_any_step_bricks_and_extinction(void **state) {
+    open_gl(state);
+    ang_volume *volume = sheared_volume(flat_value);
+    ang_renderer *renderer = open_renderer(gl, volume, &exact);
+    for (int which = 0; which < SCENES; which++)
+        for (int power = -6; power <= 6; power += 3) {
+            double kappa = pow(10, power);
+            ang_transfer *transfer = constant_transfer(kappa, 0.25, 0.5, 1);
+            ang_scene scene = make_scene(which, volume, transfer);
+            static const double steps[] = {0.07, 0.5, 1.3, 100};
+            for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+                ang_render_options options = exact;
+                options.step_voxels = steps[i];
+                if (i == 1) memcpy(options.bricks, (const int[3]){5, 3, 4}, sizeof options.bricks);
+                ang_image image = draw(renderer, &scene, &options, NULL);
+                for (int p = 0; p < width * height; p++) {
+                    double alpha = -expm1(-kappa * ray_length(volume, &scene, p));
+                    /* Rays that graze an edge of the box are as uncertain as its float coordinates. */
+                    double tolerance = 4e-6 + fmin(2e-5 * kappa, 4e-4);
+                    assert_close(image.rgba[4 * p + 3], alpha, tolerance);
+                    assert_close(image.rgba[4 * p], 0.25 * alpha, tolerance);
+                }
+                ang_image_clear(&image);
+            }
+            ang_transfer_free(transfer);
+        }
+    ang_method_slicing.destroy(renderer);
+    ang_volume_free(volume);
+}
+
+/* Bricks of equal and of mixed size, skipping and proxies decide what is drawn, never what is seen: the same bits.
+ * Every sample is drawn once: the counts agree as well. */
+static void bricks_skipping_and_proxies_change_no_bit(void **state) {
+    open_gl(state);
+    ang_volume *volume = sheared_volume(sparse_value);
+    ang_transfer *transfer = vessels();
+    ang_renderer *renderer = open_renderer(gl, volume, &exact);
+    for (int which = 0; which < SCENES; which++)
+        for (int mode = ANG_MODE_DVR; mode <= ANG_MODE_ISO; mode++) {
+            ang_scene scene = make_scene(which, volume, transfer);
+            scene.mode = (ang_mode)mode;
+            scene.shading = which % 2 ? ANG_SHADING_PHONG : ANG_SHADING_NONE;
+            ang_render_options plain = exact;
+            plain.no_skip = true;
+            ang_frame_stats whole = {0}, stats = {0};
+            ang_image image = draw(renderer, &scene, &plain, &whole);
+            bool once = mode != ANG_MODE_ISO; /* a hit hides what comes after, so that fewer samples are drawn */
+
+            static const int bricks[][3] = {{1, 1, 1}, {2, 2, 1}, {3, 5, 2}, {8, 7, 6}, {64, 64, 64}};
+            for (size_t b = 0; b < sizeof bricks / sizeof *bricks; b++) {
+                if (b == 4 && which != 0) continue;
+                ang_render_options options = plain;
+                memcpy(options.bricks, bricks[b], sizeof options.bricks);
+                assert_true(changed_by(renderer, &scene, &image, &options, &stats) == 0);
+                if (once) assert_int_equal(stats.samples, whole.samples);
+                options.no_skip = false;
+                assert_true(changed_by(renderer, &scene, &image, &options, &stats) == 0);
+                assert_true(stats.samples <= whole.samples);
+            }
+            assert_true(changed_by(renderer, &scene, &image, &exact, &stats) == 0);
+            for (int proxy = ANG_PROXY_VERTEX_PROGRAM; proxy <= ANG_PROXY_CONVEX_HULL; proxy++) {
+                ang_render_options options = exact;
+                options.proxy = (ang_proxy)proxy;
+                assert_true(changed_by(renderer, &scene, &image, &options, NULL) == 0);
+                memcpy(options.bricks, bricks[2], sizeof options.bricks);
+                ang_frame_stats again = {0};
+                assert_true(changed_by(renderer, &scene, &image, &options, &again) == 0);
+            }
+            ang_image_clear(&image);
+        }
+    ang_method_slicing.destroy(renderer);
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
+/* Samples that a ray method's lattice of planes would take, counted in double. */
+static uint64_t count_samples(const ang_volume *volume, const ang_scene *scene, double step) {
+    ang_ray_frame frame;
+    assert_true(ang_ray_frame_make(volume, scene, &frame, NULL));
+    ang_slice_planes planes = ang_slice_planes_make(&frame, step);
+    uint64_t count = 0;
+    for (int p = 0; p < width * height; p++) {
+        ang_ray ray = ang_ray_through(&frame, p % width + 0.5, p / width + 0.5);
+        if (!(ray.enter < ray.leave)) continue;
+        double cosine = ang_vec3_dot(ray.direction_mm, frame.axis_mm);
+        double from = ceil((ray.enter * cosine - planes.first) / planes.distance);
+        double to = floor((ray.leave * cosine - planes.first) / planes.distance);
+        from = fmax(from, 0);
+        to = fmin(to, planes.count - 1);
+        count += to >= from ? (uint64_t)(to - from) + 1 : 1; /* between two planes: half-way */
+    }
+    return count;
+}
+
+static void every_sample_is_drawn_once(void **state) {
+    open_gl(state);
+    ang_volume *volume = sheared_volume(flat_value);
+    ang_transfer *transfer = constant_transfer(0.1, 1, 1, 1);
+    ang_renderer *renderer = open_renderer(gl, volume, &exact);
+    for (int which = 0; which < SCENES; which++) {
+        ang_scene scene = make_scene(which, volume, transfer);
+        ang_frame_stats stats = {0};
+        ang_render_options options = exact;
+        memcpy(options.bricks, (const int[3]){4, 5, 3}, sizeof options.bricks);
+        ang_image image = draw(renderer, &scene, &options, &stats);
+        ang_image_clear(&image);
+        double expected = (double)count_samples(volume, &scene, 0.5 * ang_volume_smallest_spacing(volume));
+        /* A few lie on a face to rounding. */
+        assert_close((double)stats.samples, expected, 1e-4 * expected);
+        if (which < 2) assert_int_equal(stats.bricks_drawn, 60);
+        assert_int_equal(stats.bricks_total, 60);
+    }
+    ang_method_slicing.destroy(renderer);
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
+static void nothing_to_see_draws_nothing(void **state) {
+    open_gl(state);
+    ang_volume *volume = sheared_volume(sparse_value);
+    ang_transfer *transfer = constant_transfer(0, 1, 1, 1);
+    ang_renderer *renderer = open_renderer(gl, volume, &exact);
+    ang_scene scene = make_scene(0, volume, transfer);
+    ang_frame_stats stats = {0};
+    ang_image image = draw(renderer, &scene, &exact, &stats);
+    for (int i = 0; i < 4 * width * height; i++) assert_true(image.rgba[i] == 0);
+    assert_int_equal(stats.samples, 0);
+    assert_int_equal(stats.polygons, 0);
+    ang_image_clear(&image);
+    ang_method_slicing.destroy(renderer);
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
+static void termination_spares_samples_within_its_bound(void **state) {
+    open_gl(state);
+    ang_volume *volume = sheared_volume(flat_value);
+    ang_transfer *dense = constant_transfer(2, 0.25, 0.5, 1), *thin = constant_transfer(1e-4, 1, 1, 1);
+    ang_renderer *renderer = open_renderer(gl, volume, &exact);
+    ang_scene scene = make_scene(0, volume, dense);
+    ang_frame_stats all = {0}, some = {0};
+    ang_render_options fine = exact;
+    fine.step_voxels = 0.1;
+    ang_image image = draw(renderer, &scene, &fine, &all);
+    assert_int_equal(all.passes, 1);
+    static const double thresholds[] = {0.5, 0.95, 0.999};
+    for (size_t i = 0; i < sizeof thresholds / sizeof *thresholds; i++) {
+        ang_render_options options = exact;
+        options.termination = thresholds[i];
+        options.step_voxels = fine.step_voxels;
+        double change = changed_by(renderer, &scene, &image, &options, &some);
+        assert_true(some.samples < 0.8 * (double)all.samples);
+        assert_true(some.passes > 2);
+        assert_true(change <= 1 - thresholds[i] + 1e-6);
+    }
+    ang_image_clear(&image);
+
+    scene.transfer = thin; /* cannot reach the threshold: no looks for finished pixels, back to front */
+    ang_render_options options = exact;
+    options.termination = 0.999;
+    image = draw(renderer, &scene, &options, &some);
+    assert_int_equal(some.passes, 1);
+    ang_plan plan = {0};
+    assert_true(ang_method_slicing.explain(renderer, &scene, &options, &plan, NULL));
+    bool said = false;
+    for (size_t i = 0; i < plan.left_out.count; i++)
+        said = said || strstr(plan.left_out.item[i].why, "no ray can reach the threshold");
+    assert_true(said);
+    ang_plan_clear(&plan);
+    ang_image_clear(&image);
+    ang_method_slicing.destroy(renderer);
+    ang_transfer_free(dense);
+    ang_transfer_free(thin);
+    ang_volume_free(volume);
+}
+
+/* A volume that the budget does not hold is drawn from bricks: the same picture, but for the rounding of texture
+ * coordinates, and the same to 1e-6 where weights are made in the shader. */
+static void a_memory_budget_streams_bricks(void **state) {
+    open_gl(state);
+    static const double spacing[3] = {0.8, 0.9, 1.4};
+    ang_volume *volume = make_volume(101, 77, 83, spacing, sparse_value);
+    volume->affine.m[1][2] = 0.5;
+    ang_transfer *transfer = vessels();
+    ang_render_options small = exact;
+    small.gpu_memory = 300000;
+    ang_renderer *whole = open_renderer(gl, volume, &exact), *bricks = open_renderer(gl, volume, &small);
+    for (int which = 0; which < SCENES; which++)
+        for (int mode = ANG_MODE_DVR; mode <= ANG_MODE_ISO; mode++)
+            for (int manual = 0; manual < 2; manual++) {
+                ang_scene scene = make_scene(which, volume, transfer);
+                scene.mode = (ang_mode)mode;
+                scene.shading = which % 2 ? ANG_SHADING_PHONG : ANG_SHADING_NONE;
+                ang_render_options options = exact;
+                options.manual_filter = manual;
+                ang_frame_stats stats = {0};
+                ang_image image = draw(whole, &scene, &options, NULL);
+                double change = changed_by(bricks, &scene, &image, &options, &stats);
+                bool loose = !manual || mode == ANG_MODE_ISO;
+                if (!(change <= (loose ? 2e-3 : 1e-6)))
+                    fail_msg("scene %d, mode %d, manual %d: %g", which, mode, manual, change);
+                assert_true(stats.bricks_uploaded > 0);
+                assert_non_null(stats.note);
+                assert_non_null(strstr(stats.note, "--gpu-memory"));
+                ang_image_clear(&image);
+            }
+    ang_method_slicing.destroy(whole);
+    ang_method_slicing.destroy(bricks);
+
+    /* Invisible bricks are never uploaded, and what is there is not uploaded again. */
+    ang_render_options options = exact;
+    options.gpu_memory = 2 * ang_volume_count(volume) - 1;
+    for (size_t i = 0; i < ang_volume_count(volume); i++)
+        if (i / (101 * 77) > 30) volume->data[i] = 0;
+    bricks = open_renderer(gl, volume, &options);
+    ang_scene scene = make_scene(0, volume, transfer);
+    ang_frame_stats first = {0}, second = {0};
+    ang_image image = draw(bricks, &scene, &options, &first);
+    assert_true(changed_by(bricks, &scene, &image, &options, &second) == 0);
+    ang_render_options all = options;
+    all.no_skip = true;
+    ang_frame_stats third = {0};
+    assert_true(changed_by(bricks, &scene, &image, &all, &third) == 0);
+    assert_true(first.bricks_uploaded > 0);
+    assert_int_equal(second.bricks_uploaded, 0);
+    assert_true(third.bricks_uploaded >= first.bricks_uploaded);
+    ang_image_clear(&image);
+    ang_method_slicing.destroy(bricks);
+
+    /* A budget below the least brick is refused. */
+    options.gpu_memory = 100;
+    bricks = open_renderer(gl, volume, &options);
+    ang_error err = {0};
+    assert_true(ang_image_create(&image, scene.width, scene.height, &err));
+    assert_false(ang_method_slicing.render(bricks, &scene, &options, &image, NULL, NULL, &err));
+    assert_int_equal(err.code, ANG_LIMIT);
+    assert_non_null(strstr(err.message, "--gpu-memory"));
+    ang_image_clear(&image);
+    ang_method_slicing.destroy(bricks);
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
+static void thin_volumes_and_great_steps(void **state) {
+    open_gl(state);
+    static const int shapes[][3] = {{1, 1, 1}, {1, 8, 8}, {8, 1, 8}, {8, 8, 1}, {6, 6, 6}};
+    static const double spacings[][3] = {{1, 1, 1}, {1, 1, 1000}, {0.3, 0.4, 5}};
+    ang_transfer *transfer = constant_transfer(0.3, 0.25, 0.5, 1);
+    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++)
+        for (size_t p = 0; p < sizeof spacings / sizeof *spacings; p++) {
+            const int *n = shapes[s];
+            ang_volume *volume = make_volume(n[0], n[1], n[2], spacings[p], flat_value);
+            volume->affine.m[0][3] = -1e5;
+            ang_renderer *renderer = open_renderer(gl, volume, &exact);
+            ang_scene scene = make_scene(0, volume, transfer);
+            /* Places in float. */
+            double tolerance = 2e-5 + 0.3 * 2e-7 * ang_volume_half_diagonal(volume);
+            scene.shading = ANG_SHADING_PHONG; /* without a gradient it changes nothing */
+            for (int inside = 0; inside < 2; inside++) {
+                if (inside) {
+                    scene.camera.eye = ang_vec3_along(ang_volume_centre(volume), scene.camera.right, 0.1);
+                    scene.camera.fov_deg = 120;
+                }
+                ang_render_options options = exact;
+                options.step_voxels = inside ? 0.5 : 7;
+                ang_image image = draw(renderer, &scene, &options, NULL);
+                for (int i = 0; i < width * height; i++)
+                    assert_close(image.rgba[4 * i + 3], -expm1(-0.3 * ray_length(volume, &scene, i)), tolerance);
+                ang_image_clear(&image);
+            }
+            ang_method_slicing.destroy(renderer);
+            ang_volume_free(volume);
+        }
+    ang_transfer_free(transfer);
+}
+
+static void bricks_are_shown_as_edges(void **state) {
+    open_gl(state);
+    ang_volume *volume = sheared_volume(sparse_value);
+    ang_transfer *transfer = vessels();
+    ang_renderer *renderer = open_renderer(gl, volume, &exact);
+    for (int mode = ANG_MODE_DVR; mode <= ANG_MODE_MIP; mode++) {
+        ang_scene scene = make_scene(0, volume, transfer);
+        scene.mode = (ang_mode)mode;
+        ang_image image = draw(renderer, &scene, &exact, NULL);
+        ang_render_options options = exact;
+        options.show_bricks = true;
+        ang_image other = draw(renderer, &scene, &options, NULL);
+        int changed = 0;
+        for (int p = 0; p < width * height; p++)
+            changed += memcmp(image.rgba + 4 * p, other.rgba + 4 * p, 4 * sizeof(float)) != 0;
+        assert_in_range(changed, 100, width * height * 3 / 4);
+        ang_image_clear(&image);
+        ang_image_clear(&other);
+    }
+    ang_method_slicing.destroy(renderer);
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
+static bool stop_at_once(void *context, const char *what, double fraction) {
+    (void)what, (void)fraction;
+    ++*(int *)context;
+    return false;
+}
+
+static void refusals_and_interruption(void **state) {
+    open_gl(state);
+    ang_volume *volume = sheared_volume(flat_value);
+    ang_transfer *transfer = constant_transfer(1, 1, 1, 1);
+    ang_renderer *renderer = open_renderer(gl, volume, &exact);
+    ang_scene scene = make_scene(0, volume, NULL);
+    ang_image image;
+    ang_error err = {0};
+    assert_true(ang_image_create(&image, width, height, &err));
+    assert_false(ang_method_slicing.render(renderer, &scene, &exact, &image, NULL, NULL, &err));
+    assert_int_equal(err.code, ANG_USAGE);
+    scene.transfer = transfer;
+    int calls = 0;
+    ang_progress progress = {stop_at_once, &calls};
+    ang_render_options options = exact;
+    options.termination = 0.9;
+    assert_false(ang_method_slicing.render(renderer, &scene, &options, &image, NULL, &progress, &err));
+    assert_int_equal(err.code, ANG_INTERRUPTED);
+    assert_int_equal(calls, 1);
+    options.step_voxels = 0;
+    assert_false(ang_method_slicing.render(renderer, &scene, &options, &image, NULL, NULL, &err));
+    assert_int_equal(err.code, ANG_USAGE);
+    assert_null(ang_method_slicing.create(NULL, volume, &exact, &err));
+    assert_int_equal(err.code, ANG_GL);
+    ang_image_clear(&image);
+    ang_method_slicing.destroy(renderer);
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
+static int open_backend(void **state, ang_backend backend) {
+    ang_error err = {0};
+    *state = ang_gl_create(backend, &err);
+    if (!*state) print_message("no %s here: %s\n", ang_backend_name(backend), err.message);
+#ifdef ANG_WITH_OSMESA
+    if (!*state && backend == ANG_BACKEND_OSMESA) return -1;
+#endif
+    return 0;
+}
+static int open_osmesa(void **state) { return open_backend(state, ANG_BACKEND_OSMESA); }
+static int open_egl(void **state) { return open_backend(state, ANG_BACKEND_EGL); }
+static int close_backend(void **state) {
+    ang_gl_destroy(*state);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(homogeneous_media_at_any_step_bricks_and_extinction),
+        cmocka_unit_test(bricks_skipping_and_proxies_change_no_bit),
+        cmocka_unit_test(every_sample_is_drawn_once),
+        cmocka_unit_test(nothing_to_see_draws_nothing),
+        cmocka_unit_test(termination_spares_samples_within_its_bound),
+        cmocka_unit_test(a_memory_budget_streams_bricks),
+        cmocka_unit_test(thin_volumes_and_great_steps),
+        cmocka_unit_test(bricks_are_shown_as_edges),
+        cmocka_unit_test(refusals_and_interruption),
+    };
+    int failed = cmocka_run_group_tests_name("osmesa", tests, open_osmesa, close_backend);
+    return failed + cmocka_run_group_tests_name("egl", tests, open_egl, close_backend);
+}
