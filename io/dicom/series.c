@@ -360,6 +360,18 @@ static double worth(const ang_dicom_slice *slices, const ang_dicom_group *group)
     return voxels * (strcmp(first->modality, "CT") == 0 ? 1e24 : 1) * (group->derived ? 1e-12 : 1);
 }
 
+static bool is_lossy(const ang_dicom_slice *slices, const ang_dicom_group *group) {
+    for (size_t i = 0; i < group->count; i++)
+        if (slices[group->order[i]].lossy) return true;
+    return false;
+}
+
+/* Whether `a` is rather to be shown than `b`, which comes first in the list. */
+static bool is_better(const ang_dicom_slice *slices, const ang_dicom_group *a, const ang_dicom_group *b) {
+    double left = worth(slices, a), right = worth(slices, b);
+    return left > right || (left == right && is_lossy(slices, b) && !is_lossy(slices, a));
+}
+
 static bool choose_named(const ang_dicom_slice *slices, const ang_dicom_groups *groups, const char *series,
                          size_t *chosen, ang_error *err) {
     char *rest;
@@ -371,9 +383,8 @@ static bool choose_named(const ang_dicom_slice *slices, const ang_dicom_groups *
         for (size_t i = 0; i < groups->count; i++) {
             const ang_dicom_group *group = &groups->group[i];
             if (!ends_with(slices[group->order[0]].series_uid, series)) continue;
-            if (found == groups->count ||
-                (group->loadable &&
-                 (!groups->group[found].loadable || worth(slices, group) > worth(slices, &groups->group[found]))))
+            if (found == groups->count || (group->loadable && (!groups->group[found].loadable ||
+                                                               is_better(slices, group, &groups->group[found]))))
                 found = i;
         }
     }
@@ -392,7 +403,7 @@ bool ang_dicom_choose(const ang_dicom_slice *slices, const ang_dicom_groups *gro
     size_t best = groups->count;
     for (size_t i = 0; i < groups->count; i++) {
         if (!groups->group[i].loadable) continue;
-        if (best == groups->count || worth(slices, &groups->group[i]) > worth(slices, &groups->group[best])) best = i;
+        if (best == groups->count || is_better(slices, &groups->group[i], &groups->group[best])) best = i;
     }
     if (best == groups->count) {
         if (groups->count == 1) return ang_fail(err, ANG_INPUT, "no 3D image series: %s", groups->group[0].remark);

@@ -44,7 +44,8 @@ bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dic
 void ang_dicom_groups_clear(ang_dicom_groups *groups);
 
 /* The group to load: number `series` (1, 2, ...) or the one whose SeriesInstanceUID ends in it; NULL: the largest CT
- * volume, else the largest of another modality. ANG_INPUT where there is none that can be loaded. */
+ * volume, else the largest of another modality; of equal ones the first without lossy compression, else the first.
+ * ANG_INPUT where there is none that can be loaded. */
 bool ang_dicom_choose(const ang_dicom_slice *slices, const ang_dicom_groups *groups, const char *series, size_t *chosen,
                       ang_error *err);
 

@@ -92,6 +92,29 @@ static void test_ct_wins(void **state) {
     ang_dicom_groups_clear(&groups);
 }
 
+static void test_lossless_wins_at_equal_size(void **state) {
+    (void)state;
+    ang_dicom_slice s[16];
+    for (int i = 0; i < 15; i++) { /* series 1 to 5, three slices each; one slice of 1, all of 2 and 5 are lossy */
+        s[i] = slice_at(i % 3, i);
+        snprintf(s[i].series_uid, sizeof s[i].series_uid, "1.2.%d", i / 3 + 1);
+        s[i].lossy = i == 1 || i / 3 == 1 || i / 3 == 4;
+    }
+    ang_dicom_groups groups;
+    ang_error err = {0};
+    size_t chosen;
+    assert_true(ang_dicom_group_slices(s, 15, NULL, NULL, &groups, &err));
+    assert_true(ang_dicom_choose(s, &groups, NULL, &chosen, &err));
+    assert_int_equal(chosen, 2);
+    ang_dicom_groups_clear(&groups);
+    s[15] = slice_at(3, 15); /* size comes first */
+    strcpy(s[15].series_uid, "1.2.5");
+    assert_true(ang_dicom_group_slices(s, 16, NULL, NULL, &groups, &err));
+    assert_true(ang_dicom_choose(s, &groups, NULL, &chosen, &err));
+    assert_int_equal(chosen, 4);
+    ang_dicom_groups_clear(&groups);
+}
+
 static void test_duplicates_and_phases(void **state) {
     (void)state;
     ang_dicom_slice s[8];
@@ -218,6 +241,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_grouping),
         cmocka_unit_test(test_ct_wins),
+        cmocka_unit_test(test_lossless_wins_at_equal_size),
         cmocka_unit_test(test_duplicates_and_phases),
         cmocka_unit_test(test_unreadable_doubles),
         cmocka_unit_test(test_phases_without_orientation),
