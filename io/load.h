@@ -27,7 +27,7 @@ typedef struct ang_series_info {
     char *description; /* SeriesDescription: may identify a patient */
     char *uid;         /* SeriesInstanceUID: identifies */
     int width, height, slices;
-    double spacing_mm[3];
+    double spacing_mm[3]; /* along rows, columns and the normal: the mean distance of its slices (dicom-rules 4) */
     bool loadable;
     char *remark; /* why it is not loadable, or what it is: "localizer", "derived summary (SEC...)" */
 } ang_series_info;

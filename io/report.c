@@ -57,26 +57,18 @@ static char side(ang_vec3 d) {
     return d.z > 0 ? 'H' : 'F';
 }
 
-static void print_geometry(FILE *out, const ang_volume *volume, const ang_load_report *report) {
-    fprintf(out, "Geometry\n");
-    fprintf(out, "  size         %d x %d x %d voxels\n", volume->dims[0], volume->dims[1], volume->dims[2]);
-    fprintf(out, "  voxel        %.4f x %.4f x %.4f mm\n", ang_volume_spacing(volume, 0), ang_volume_spacing(volume, 1),
-            ang_volume_spacing(volume, 2));
-    ang_vec3 axis[3];
-    for (int i = 0; i < 3; i++) axis[i] = ang_mat4_column(&volume->affine, i);
-    fprintf(out, "  axes         columns run to %c, rows to %c, slices to %c\n", side(axis[0]), side(axis[1]),
-            side(axis[2]));
-    fprintf(out, "  first voxel  %.2f, %.2f, %.2f mm (left, posterior, head)\n", volume->affine.m[0][3],
-            volume->affine.m[1][3], volume->affine.m[2][3]);
-    fprintf(out, "  gantry tilt  %.2f degrees%s", report->tilt_deg, report->tilt_deg > 0 ? ", kept as a shear" : "");
-    if (isfinite(report->tilt_nominal_deg)) fprintf(out, " (the scanner says %.2f)", report->tilt_nominal_deg);
-    fprintf(out, "\n  slices       %d read", report->slices_read);
-    if (report->slices_duplicate) fprintf(out, ", %d duplicates dropped", report->slices_duplicate);
-    if (report->slices_missing) fprintf(out, ", %d missing and interpolated", report->slices_missing);
+/* Slices as they were read, and where they are not the volume's planes, how these were made of them. */
+static void print_slices(FILE *out, const ang_volume *volume, const ang_load_report *report) {
+    fprintf(out, "  slices       %d read", report->slices_read);
+    if (report->slices_duplicate)
+        fprintf(out, ", %d duplicate%s dropped", report->slices_duplicate, report->slices_duplicate > 1 ? "s" : "");
     fprintf(out, "\n");
-    if (report->slice_gap_median_mm > 0)
-        fprintf(out, "  distances    %.3f to %.3f mm, median %.3f mm%s\n", report->slice_gap_min_mm,
-                report->slice_gap_max_mm, report->slice_gap_median_mm, report->resampled ? ": resampled" : "");
+    if (report->slice_gap_median_mm > 0) {
+        fprintf(out, "  distances    %.3f to %.3f mm, median %.3f mm", report->slice_gap_min_mm,
+                report->slice_gap_max_mm, report->slice_gap_median_mm);
+        if (report->gap_count) fprintf(out, ", mean %.3f mm", report->series[report->chosen].spacing_mm[2]);
+        fprintf(out, "\n");
+    }
     for (size_t i = 0; i < report->gap_count; i++) {
         const ang_gap *gap = &report->gaps[i];
         fprintf(out, "    after slice %d: %.3f mm", gap->after + 1, gap->mm);
@@ -85,6 +77,29 @@ static void print_geometry(FILE *out, const ang_volume *volume, const ang_load_r
         else
             fprintf(out, ", irregular\n");
     }
+    if (report->resampled)
+        fprintf(out, "  planes       %d in the volume, %.3f mm apart: resampled from the %d slices read\n",
+                volume->dims[2], ang_volume_slice_distance(volume), report->slices_read);
+    else if (report->slices_missing)
+        fprintf(out, "  planes       %d in the volume, %.3f mm apart: the %d slices read and %d interpolated\n",
+                volume->dims[2], ang_volume_slice_distance(volume), report->slices_read, report->slices_missing);
+}
+
+static void print_geometry(FILE *out, const ang_volume *volume, const ang_load_report *report) {
+    fprintf(out, "Geometry\n");
+    fprintf(out, "  size         %d x %d x %d voxels\n", volume->dims[0], volume->dims[1], volume->dims[2]);
+    fprintf(out, "  voxel        %.4f x %.4f x %.4f mm\n", ang_volume_spacing(volume, 0), ang_volume_spacing(volume, 1),
+            ang_volume_slice_distance(volume));
+    ang_vec3 axis[3];
+    for (int i = 0; i < 3; i++) axis[i] = ang_mat4_column(&volume->affine, i);
+    fprintf(out, "  axes         columns run to %c, rows to %c, slices to %c\n", side(axis[0]), side(axis[1]),
+            side(axis[2]));
+    fprintf(out, "  first voxel  %.2f, %.2f, %.2f mm (left, posterior, head)\n", volume->affine.m[0][3],
+            volume->affine.m[1][3], volume->affine.m[2][3]);
+    fprintf(out, "  gantry tilt  %.2f degrees%s", report->tilt_deg, report->tilt_deg > 0 ? ", kept as a shear" : "");
+    if (isfinite(report->tilt_nominal_deg)) fprintf(out, " (the scanner says %.2f)", report->tilt_nominal_deg);
+    fprintf(out, "\n");
+    print_slices(out, volume, report);
 }
 
 /* The intercept for stored values as they are in the file: the volume holds signed ones with 32768 added. */
@@ -94,8 +109,8 @@ static double file_intercept(const ang_volume *volume, const ang_load_report *re
 
 static void print_values(FILE *out, const ang_volume *volume, const ang_load_report *report) {
     fprintf(out, "Values\n");
-    fprintf(out, "  range        %g to %g HU\n", ang_volume_hu(volume, volume->minimum),
-            ang_volume_hu(volume, volume->maximum));
+    fprintf(out, "  range        %g to %g HU%s\n", ang_volume_hu(volume, volume->minimum),
+            ang_volume_hu(volume, volume->maximum), report->resampled ? ", after resampling" : "");
     double intercept = file_intercept(volume, report);
     fprintf(out, "  HU           = %.10g x stored %c %.10g; stored in %d bits, %s\n", volume->slope,
             intercept < 0 ? '-' : '+', fabs(intercept), report->bits_stored,
@@ -165,8 +180,8 @@ static void add_series(cJSON *input, const ang_volume *volume, const ang_load_re
 }
 
 static void add_geometry(cJSON *input, const ang_volume *volume, const ang_load_report *report) {
-    double spacing[3];
-    for (int axis = 0; axis < 3; axis++) spacing[axis] = ang_volume_spacing(volume, axis);
+    double spacing[3] = {ang_volume_spacing(volume, 0), ang_volume_spacing(volume, 1),
+                         ang_volume_slice_distance(volume)};
     cJSON_AddItemToObject(input, "dims", cJSON_CreateIntArray(volume->dims, 3));
     add_numbers(input, "spacing_mm", spacing, 3);
     ang_json_add_number(input, "tilt_deg", report->tilt_deg);

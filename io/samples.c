@@ -251,7 +251,8 @@ bool ang_samples_list(const ang_volume *volume, const char *modality, const char
     if (!info->description || !info->uid || !info->remark)
         return ang_fail(err, ANG_LIMIT, "no memory for the list of series");
     snprintf(info->modality, sizeof info->modality, "%s", modality);
-    for (int axis = 0; axis < 3; axis++) info->spacing_mm[axis] = ang_volume_spacing(volume, axis);
+    for (int axis = 0; axis < 2; axis++) info->spacing_mm[axis] = ang_volume_spacing(volume, axis);
+    info->spacing_mm[2] = ang_volume_slice_distance(volume);
     report->slice_gap_median_mm = report->slice_gap_min_mm = report->slice_gap_max_mm =
         volume->dims[2] > 1 ? info->spacing_mm[2] : 0;
     return true;

@@ -46,6 +46,11 @@ double ang_volume_spacing(const ang_volume *volume, int axis) {
     return ang_vec3_length(ang_mat4_column(&volume->affine, axis));
 }
 
+double ang_volume_slice_distance(const ang_volume *volume) {
+    ang_vec3 normal = ang_vec3_cross(ang_mat4_column(&volume->affine, 0), ang_mat4_column(&volume->affine, 1));
+    return fabs(ang_vec3_dot(ang_vec3_unit(normal), ang_mat4_column(&volume->affine, 2)));
+}
+
 double ang_volume_smallest_spacing(const ang_volume *volume) {
     return fmin(ang_volume_spacing(volume, 0), fmin(ang_volume_spacing(volume, 1), ang_volume_spacing(volume, 2)));
 }

@@ -31,6 +31,9 @@ void ang_volume_free(ang_volume *volume);
 size_t ang_volume_count(const ang_volume *volume);
 /* Millimetres between voxel centres along an index axis (length of the affine's column). */
 double ang_volume_spacing(const ang_volume *volume, int axis);
+/* Millimetres between neighbouring slice planes along their normal (dicom-rules 4): less than ang_volume_spacing along
+ * z where the affine shears. */
+double ang_volume_slice_distance(const ang_volume *volume);
 /* The least of the three spacings, in mm: the unit of --step. */
 double ang_volume_smallest_spacing(const ang_volume *volume);
 /* Lower and upper corner of the box in voxel index space: first to last voxel centre; an axis of one voxel spans -0.5

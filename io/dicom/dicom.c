@@ -78,9 +78,20 @@ static ang_dicom_likeness compare_pixels(void *context, size_t a, size_t b, ang_
     return same ? ANG_DICOM_SAME : ANG_DICOM_DIFFERENT;
 }
 
+/* Distance of the slices of a sorted group along their normal (rule 4); their thickness where positions do not say. */
+static double slice_distance(const ang_dicom_slice *slices, const ang_dicom_group *group) {
+    const ang_dicom_slice *last = &slices[group->order[group->count - 1]];
+    ang_dicom_slice first = ang_dicom_with_defaults(&slices[group->order[0]]);
+    if (group->count > 1 && first.has_position) {
+        ang_vec3 normal = ang_dicom_normal(&first);
+        return (ang_dicom_along(last, normal) - ang_dicom_along(&first, normal)) / (double)(group->count - 1);
+    }
+    return first.has_thickness && first.thickness > 0 ? first.thickness : 1;
+}
+
 static bool describe(const ang_dicom_slice *slices, const ang_dicom_group *group, int number, ang_series_info *info,
                      ang_error *err) {
-    const ang_dicom_slice *first = &slices[group->order[0]], *last = &slices[group->order[group->count - 1]];
+    const ang_dicom_slice *first = &slices[group->order[0]];
     *info = (ang_series_info){.number = number,
                               .description = strdup(first->description),
                               .uid = strdup(first->series_uid),
@@ -95,10 +106,7 @@ static bool describe(const ang_dicom_slice *slices, const ang_dicom_group *group
              first->modality[0] ? ang_dicom_modality(first->modality) : "?");
     info->spacing_mm[0] = first->has_spacing ? first->column_spacing : 1;
     info->spacing_mm[1] = first->has_spacing ? first->row_spacing : 1;
-    info->spacing_mm[2] = first->has_thickness && first->thickness > 0 ? first->thickness : 1;
-    if (group->count > 1 && first->has_position)
-        info->spacing_mm[2] =
-            ang_vec3_length(ang_vec3_sub(last->position, first->position)) / (double)(group->count - 1);
+    info->spacing_mm[2] = slice_distance(slices, group);
     return true;
 }
 
@@ -287,6 +295,7 @@ static ang_volume *load_folder(const ang_dicom_folder *folder, const char *path,
         if (volume) {
             note_result(volume, first, report);
             report->series[chosen].slices = report->slices_read;
+            report->series[chosen].spacing_mm[2] = slice_distance(folder->slices, group);
         }
     }
     ang_dicom_groups_clear(&groups);

@@ -44,6 +44,19 @@ static void box_has_voxel_centres_and_half_a_spacing_where_flat(void **state) {
     ang_volume_free(volume);
 }
 
+static void slices_are_measured_along_their_normal(void **state) {
+    (void)state;
+    double spacing[3] = {0.5, 2, 3};
+    ang_volume *volume = make_volume(4, 4, 4, spacing, linear_value);
+    assert_close(ang_volume_slice_distance(volume), 3, 1e-12);
+    volume->affine.m[1][2] = 4; /* sheared: 5 mm to the next centre, 3 mm to its plane */
+    assert_close(ang_volume_spacing(volume, 2), 5, 1e-12);
+    assert_close(ang_volume_slice_distance(volume), 3, 1e-12);
+    volume->affine.m[2][2] = -3;
+    assert_close(ang_volume_slice_distance(volume), 3, 1e-12);
+    ang_volume_free(volume);
+}
+
 static void samples_and_gradients_of_a_linear_field_are_exact(void **state) {
     (void)state;
     double spacing[3] = {0.5, 2, 4};
@@ -178,6 +191,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_matrix_and_its_inverse_cancel),
         cmocka_unit_test(box_has_voxel_centres_and_half_a_spacing_where_flat),
+        cmocka_unit_test(slices_are_measured_along_their_normal),
         cmocka_unit_test(samples_and_gradients_of_a_linear_field_are_exact),
         cmocka_unit_test(padding_becomes_air_and_leaves_the_statistics),
         cmocka_unit_test(histogram_counts_every_voxel_once),

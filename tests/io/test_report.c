@@ -182,6 +182,54 @@ static void test_what_is_not_loaded_is_listed(void **state) {
     clear(&r);
 }
 
+/* Slices tilted by 36.87 degrees, the table along z: 0.8 of its way is the distance of the slices. */
+static void tilted_series(const double *z, int count) {
+    fresh_folder(FOLDER);
+    for (int i = 0; i < count; i++) {
+        form f = form_at(z[i], 1000 + 100 * i);
+        f.orientation = "1\\0\\0\\0\\0.8\\-0.6";
+        char name[8];
+        snprintf(name, sizeof name, "%d", i);
+        small(name, &f);
+    }
+}
+
+static void expect_in_table(const reported *r, const char *needle) {
+    if (!strstr(r->table, needle)) fail_msg("no %s in %s", needle, r->table);
+}
+
+static void test_distances_are_along_the_normal(void **state) {
+    (void)state;
+    static const double regular[] = {0, 5, 10}, missing[] = {0, 5, 10, 20}, irregular[] = {0, 5, 10, 13};
+    tilted_series(regular, 3);
+    reported r = report_of(FOLDER, false);
+    assert_non_null(r.volume);
+    assert_float_equal(ang_volume_spacing(r.volume, 2), 5, 1e-9); /* what rendering uses stays the affine's */
+    assert_float_equal(r.report.series[0].spacing_mm[2], 4, 1e-9);
+    expect_in_table(&r, "0.250 x 0.500 x 4.000 ");
+    expect_in_table(&r, "voxel        0.2500 x 0.5000 x 4.0000 mm");
+    cJSON *json = cJSON_Parse(r.json);
+    const cJSON *spacing = cJSON_GetObjectItemCaseSensitive(json, "spacing_mm");
+    assert_float_equal(cJSON_GetArrayItem(spacing, 2)->valuedouble, 4, 1e-9);
+    cJSON_Delete(json);
+    assert_null(strstr(r.table, "planes"));
+    assert_null(strstr(r.table, "after resampling"));
+    clear(&r);
+
+    tilted_series(missing, 4);
+    r = report_of(FOLDER, false);
+    expect_in_table(&r, "4.000 to 8.000 mm, median 4.000 mm, mean 5.333 mm");
+    expect_in_table(&r, "planes       5 in the volume, 4.000 mm apart: the 4 slices read and 1 interpolated");
+    clear(&r);
+
+    tilted_series(irregular, 4);
+    r = report_of(FOLDER, false);
+    expect_in_table(&r, "2.400 to 4.000 mm, median 4.000 mm, mean 3.467 mm");
+    expect_in_table(&r, "planes       5 in the volume, 2.400 mm apart: resampled from the 4 slices read");
+    expect_in_table(&r, "HU, after resampling");
+    clear(&r);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_text),
@@ -189,6 +237,7 @@ int main(void) {
         cmocka_unit_test(test_header_text_is_not_repeated),
         cmocka_unit_test(test_descriptions_are_utf8),
         cmocka_unit_test(test_what_is_not_loaded_is_listed),
+        cmocka_unit_test(test_distances_are_along_the_normal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
