@@ -47,9 +47,7 @@ static ang_preset *preset_from_histogram(const ang_volume *volume, int threads, 
 
 static ang_preset *choose_preset(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
                                  ang_notes *assumptions, ang_error *err) {
-    bool hounsfield =
-        strcmp(report->format, "DICOM") == 0 && strcmp(report->series[report->chosen].modality, "CT") == 0;
-    if (!hounsfield) {
+    if (!ang_load_report_hounsfield(report)) {
         ang_notes_add(assumptions, "no --preset given: opacity, colour and window come from the histogram");
         return preset_from_histogram(volume, options->threads, err);
     }

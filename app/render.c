@@ -102,9 +102,10 @@ static void note_empty(session *run) {
         if (run->image.rgba[i] > 0) return;
     ang_notes_add(
         &run->summary.warnings,
-        "the picture is empty: the values of the volume, %.6g to %.6g HU, are not visible with this preset, iso "
+        "the picture is empty: the values of the volume, %.6g to %.6g%s, are not visible with this preset, iso "
         "value, clip box or camera",
-        ang_volume_hu(run->volume, run->volume->minimum), ang_volume_hu(run->volume, run->volume->maximum));
+        ang_volume_hu(run->volume, run->volume->minimum), ang_volume_hu(run->volume, run->volume->maximum),
+        ang_load_report_hounsfield(&run->report) ? " HU" : "");
 }
 
 /* How the first picture was made, for --explain and the JSON. */

@@ -27,6 +27,11 @@ void ang_load_report_clear(ang_load_report *report) {
     *report = (ang_load_report){0};
 }
 
+bool ang_load_report_hounsfield(const ang_load_report *report) {
+    return report->series_count > 0 && strcmp(report->format, "DICOM") == 0 &&
+           strcmp(report->series[report->chosen].modality, "CT") == 0;
+}
+
 static ang_volume *dispatch(const char *path, const ang_load_options *options, ang_load_report *report,
                             const ang_progress *progress, ang_error *err) {
     struct stat status;

@@ -67,6 +67,8 @@ typedef struct ang_load_report {
 } ang_load_report;
 
 void ang_load_report_clear(ang_load_report *report);
+/* Whether the values are Hounsfield units: DICOM of modality CT. Others go through the same map, as numbers. */
+bool ang_load_report_hounsfield(const ang_load_report *report);
 
 /* Reads `path` into a new volume (free with ang_volume_free) and fills `report`, also as far as it came where it fails.
  * NULL with ANG_USAGE (an option or a sidecar is wrong), ANG_INPUT, ANG_GEOMETRY, ANG_LIMIT, ANG_INTERRUPTED. A file

@@ -108,24 +108,27 @@ static double file_intercept(const ang_volume *volume, const ang_load_report *re
 }
 
 static void print_values(FILE *out, const ang_volume *volume, const ang_load_report *report) {
+    bool hounsfield = ang_load_report_hounsfield(report);
+    const char *unit = hounsfield ? " HU" : "";
     fprintf(out, "Values\n");
-    fprintf(out, "  range        %g to %g HU%s\n", ang_volume_hu(volume, volume->minimum),
-            ang_volume_hu(volume, volume->maximum), report->resampled ? ", after resampling" : "");
+    fprintf(out, "  range        %g to %g%s%s\n", ang_volume_hu(volume, volume->minimum),
+            ang_volume_hu(volume, volume->maximum), unit, report->resampled ? ", after resampling" : "");
     double intercept = file_intercept(volume, report);
-    fprintf(out, "  HU           = %.10g x stored %c %.10g; stored in %d bits, %s\n", volume->slope,
-            intercept < 0 ? '-' : '+', fabs(intercept), report->bits_stored,
+    fprintf(out, "  %-12s = %.10g x stored %c %.10g; stored in %d bits, %s\n", hounsfield ? "HU" : "value",
+            volume->slope, intercept < 0 ? '-' : '+', fabs(intercept), report->bits_stored,
             report->signed_stored ? "signed" : "unsigned");
     if (volume->padding_count > 0)
-        fprintf(out, "  padding      %g HU (%s), %.1f %% of the voxels, shown as -1000 HU\n", report->padding_hu,
+        fprintf(out, "  padding      %g%s (%s), %.1f %% of the voxels, shown as -1000%s\n", report->padding_hu, unit,
                 report->padding_declared ? "declared" : "found in the corners",
-                100.0 * (double)volume->padding_count / (double)ang_volume_count(volume));
-    if (report->rescale_error_hu > 0) fprintf(out, "  rescale      off by up to %.3g HU\n", report->rescale_error_hu);
-    if (report->quantisation_hu > 0) fprintf(out, "  quantised    in steps of %.4g HU\n", report->quantisation_hu);
+                100.0 * (double)volume->padding_count / (double)ang_volume_count(volume), unit);
+    if (report->rescale_error_hu > 0)
+        fprintf(out, "  rescale      off by up to %.3g%s\n", report->rescale_error_hu, unit);
+    if (report->quantisation_hu > 0) fprintf(out, "  quantised    in steps of %.4g%s\n", report->quantisation_hu, unit);
     if (report->nan_count || report->inf_count)
         fprintf(out, "  not numbers  %llu NaN, %llu infinite\n", (unsigned long long)report->nan_count,
                 (unsigned long long)report->inf_count);
     if (isfinite(report->window_centre) && isfinite(report->window_width))
-        fprintf(out, "  window       centre %g, width %g HU\n", report->window_centre, report->window_width);
+        fprintf(out, "  window       centre %g, width %g%s\n", report->window_centre, report->window_width, unit);
     fprintf(out, "  checksum     %08x (CRC-32 of the stored values)\n", (unsigned)report->stored_crc32);
 }
 

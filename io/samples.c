@@ -198,9 +198,8 @@ static bool finish(ang_volume *volume, int threads, ang_load_report *report, ang
         report->padding_found = true;
         report->padding_hu = ang_volume_hu(volume, padding);
         if (!ang_volume_mark_padding(volume, padding, err)) return false;
-        ang_notes_add(&report->assumptions,
-                      "%g HU fills the corners: taken for padding (%.1f %%) and shown as -1000 HU", report->padding_hu,
-                      100.0 * (double)volume->padding_count / (double)ang_volume_count(volume));
+        ang_notes_add(&report->assumptions, "%g fills the corners: taken for padding (%.1f %%) and shown as -1000",
+                      report->padding_hu, 100.0 * (double)volume->padding_count / (double)ang_volume_count(volume));
     }
     ang_volume_update_range(volume, threads);
     return true;

@@ -133,10 +133,10 @@ static void note_values(const ang_dicom_slice *first, ang_load_report *report) {
     else if (!first->has_intercept)
         ang_notes_add(assumptions, "RescaleIntercept is missing: 0 is taken");
     if (ang_dicom_map_of(first).slope < 0)
-        ang_notes_add(assumptions, "RescaleSlope is negative: stored values were turned over, HU are the same");
+        ang_notes_add(assumptions, "RescaleSlope is negative: stored values were turned over, the result is the same");
     if (strcmp(first->photometric, "MONOCHROME1") == 0)
-        ang_notes_add(assumptions, "MONOCHROME1 is a matter of display: HU are as stored");
-    if (first->lossy) ang_notes_add(warnings, "the pictures were compressed with loss: HU are approximate");
+        ang_notes_add(assumptions, "MONOCHROME1 is a matter of display: values are as stored");
+    if (first->lossy) ang_notes_add(warnings, "the pictures were compressed with loss: values are approximate");
     uint16_t low, high;
     if (first->has_padding && !ang_dicom_padding(first, &low, &high))
         ang_notes_add(assumptions, "the declared padding value %u does not fit %d stored bits: ignored", first->padding,
@@ -146,21 +146,22 @@ static void note_values(const ang_dicom_slice *first, ang_load_report *report) {
 static void note_result(const ang_volume *volume, const ang_dicom_slice *first, ang_load_report *report) {
     ang_notes *assumptions = &report->assumptions;
     double share = 100.0 * (double)volume->padding_count / (double)ang_volume_count(volume);
+    const char *unit = ang_load_report_hounsfield(report) ? " HU" : "";
     uint16_t low, high;
     if (report->padding_found && ang_dicom_padding(first, &low, &high))
         ang_notes_add(assumptions, "the declared padding value occurs nowhere");
     if (report->padding_found)
-        ang_notes_add(assumptions, "%g HU fills the corners: taken for padding (%.1f %%) and shown as -1000 HU",
-                      report->padding_hu, share);
+        ang_notes_add(assumptions, "%g%s fills the corners: taken for padding (%.1f %%) and shown as -1000%s",
+                      report->padding_hu, unit, share, unit);
     if (report->padding_declared)
-        ang_notes_add(assumptions, "declared padding, %g HU, %.1f %% of the voxels, is shown as -1000 HU",
-                      report->padding_hu, share);
+        ang_notes_add(assumptions, "declared padding, %g%s, %.1f %% of the voxels, is shown as -1000%s",
+                      report->padding_hu, unit, share, unit);
     if (report->padding_declared && report->padding_hu > -900)
-        ang_notes_add(&report->warnings, "the declared padding value is %g HU, which may also be tissue",
-                      report->padding_hu);
+        ang_notes_add(&report->warnings, "the declared padding value is %g%s, which may also be tissue",
+                      report->padding_hu, unit);
     if (report->rescale_error_hu > 1e-9)
-        ang_notes_add(&report->warnings, "rescale differs between slices: one map for all, off by at most %.3g HU",
-                      report->rescale_error_hu);
+        ang_notes_add(&report->warnings, "rescale differs between slices: one map for all, off by at most %.3g%s",
+                      report->rescale_error_hu, unit);
     if (report->tilt_deg > 0.01)
         ang_notes_add(assumptions, "gantry tilt of %.2f degrees is kept as a shear, nothing is resampled for it",
                       report->tilt_deg);

@@ -182,6 +182,30 @@ static void test_what_is_not_loaded_is_listed(void **state) {
     clear(&r);
 }
 
+static void test_values_that_are_no_hounsfield_units(void **state) {
+    (void)state;
+    static const char *const modalities[] = {"CT", "MR"};
+    for (int m = 0; m < 2; m++) {
+        fresh_folder(FOLDER);
+        form f = form_at(0, 1000);
+        f.modality = modalities[m];
+        f.has_padding = true;
+        f.padding = 1000;
+        small("a", &f);
+        reported r = report_of(FOLDER, false);
+        assert_non_null(r.volume);
+        assert_int_equal(ang_load_report_hounsfield(&r.report), m == 0);
+        const char *values = strstr(r.table, "Values\n"), *warnings = strstr(r.table, "Warnings\n");
+        assert_non_null(values);
+        assert_non_null(warnings);
+        const char *unit = strstr(values, "HU");
+        assert_true(m == 0 ? unit != NULL : !unit);
+        assert_non_null(strstr(values, m == 0 ? "range        -23 to -10 HU\n" : "range        -23 to -10\n"));
+        assert_non_null(strstr(r.json, "\"hu_range\"")); /* keys stay */
+        clear(&r);
+    }
+}
+
 /* Slices tilted by 36.87 degrees, the table along z: 0.8 of its way is the distance of the slices. */
 static void tilted_series(const double *z, int count) {
     fresh_folder(FOLDER);
@@ -237,6 +261,7 @@ int main(void) {
         cmocka_unit_test(test_header_text_is_not_repeated),
         cmocka_unit_test(test_descriptions_are_utf8),
         cmocka_unit_test(test_what_is_not_loaded_is_listed),
+        cmocka_unit_test(test_values_that_are_no_hounsfield_units),
         cmocka_unit_test(test_distances_are_along_the_normal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
