@@ -168,7 +168,7 @@ ang_volume *ang_raw_load(const char *path, const ang_load_options *options, ang_
         volume->affine.m[axis][3] = -form.spacing[axis] * (volume->dims[axis] - 1) / 2;
     }
     ang_notes_add(&report->assumptions, "a raw volume says nothing of the patient: x is taken as left, y as posterior, "
-                                        "z as superior, values as HU");
+                                        "z as superior; its values need not be HU");
     if (ang_samples_list(volume, "?", ang_base_name(path), report, err)) return volume;
     ang_volume_free(volume);
     return NULL;

@@ -23,7 +23,9 @@ static const char *or_dash(const char *text) { return text && text[0] ? text : "
 
 static void print_notes(FILE *out, const char *title, const ang_notes *notes, bool keep_phi) {
     if (notes->count == 0) return;
-    fprintf(out, "%s\n", title);
+    bool hidden = false;
+    for (size_t i = 0; i < notes->count; i++) hidden = hidden || (notes->file[i] && !keep_phi);
+    fprintf(out, "%s%s\n", title, hidden ? " (--keep-phi names the files)" : "");
     for (size_t i = 0; i < notes->count; i++) {
         char text[ANG_NOTES_LINE];
         ang_notes_line(notes, i, keep_phi, text, sizeof text);

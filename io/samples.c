@@ -178,10 +178,11 @@ static bool fill(reading *reading, ang_volume *volume, ang_load_report *report, 
         for (size_t i = 0; i < words; i++) volume->data[i] = (uint16_t)(65535 - volume->data[i]);
         volume->intercept += 65535 * volume->slope;
         volume->slope = -volume->slope;
-        ang_notes_add(&report->assumptions, "the slope is negative: stored values were turned over, HU are the same");
+        ang_notes_add(&report->assumptions,
+                      "the slope is negative: stored values were turned over, the result is the same");
     }
     if (report->quantisation_hu > 0)
-        ang_notes_add(&report->assumptions, "values were quantised to 16 bits, in steps of %.4g HU",
+        ang_notes_add(&report->assumptions, "values were quantised to 16 bits, in steps of %.4g",
                       report->quantisation_hu);
     if (q.nan_count)
         ang_notes_add(&report->warnings, "%llu voxels are not a number: the least value is taken",

@@ -86,8 +86,11 @@ static void test_file_names_are_masked(void **state) {
     expect_in_neither(&r, "John");
     expect_in_neither(&r, "ller");
     expect_in_both(&r, "a file: (7FE0,0010) PixelData is cut off");
+    assert_non_null(strstr(r.table, "Warnings (--keep-phi names the files)\n"));
+    assert_null(strstr(r.table, "Assumed (")); /* nothing is hidden there */
     clear(&r);
     r = report_of(FOLDER, true);
+    assert_null(strstr(r.table, "--keep-phi"));
     expect_in_both(&r, "John.dcm");
     expect_in_both(&r, "M?ller.dcm");
     expect_utf8(r.json);
