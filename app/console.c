@@ -113,6 +113,8 @@ bool ang_app_parse_numbers(const char *option, const char *text, int least, int 
         rest++;
     }
     if (*count >= least && *rest == '\0') return true;
+    if (least == most)
+        return ang_fail(err, ANG_USAGE, "--%s %s: must be %d numbers separated by commas", option, text, most);
     return ang_fail(err, ANG_USAGE, "--%s %s: must be %d to %d numbers separated by commas", option, text, least, most);
 }
 

@@ -27,6 +27,8 @@ int ang_app_phantom(const ang_options *options, ang_error *err) {
     bool done = ang_phantom_write(options->output, &params, options->threads, ang_app_progress_sink(progress), err);
     ang_app_progress_end(progress);
     if (!done) return (int)err->code;
-    if (!options->quiet) fprintf(stderr, "%d slices and truth.json are in %s\n", params.dims[2], options->output);
+    if (!options->quiet)
+        fprintf(stderr, "%d slice%s and truth.json are in %s\n", params.dims[2], ang_plural(params.dims[2]),
+                options->output);
     return ANG_OK;
 }

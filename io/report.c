@@ -63,7 +63,7 @@ static char side(ang_vec3 d) {
 static void print_slices(FILE *out, const ang_volume *volume, const ang_load_report *report) {
     fprintf(out, "  slices       %d read", report->slices_read);
     if (report->slices_duplicate)
-        fprintf(out, ", %d duplicate%s dropped", report->slices_duplicate, report->slices_duplicate > 1 ? "s" : "");
+        fprintf(out, ", %d duplicate%s dropped", report->slices_duplicate, ang_plural(report->slices_duplicate));
     fprintf(out, "\n");
     if (report->slice_gap_median_mm > 0) {
         fprintf(out, "  distances    %.3f to %.3f mm, median %.3f mm", report->slice_gap_min_mm,

@@ -115,7 +115,7 @@ static bool pass(const reading *reading, quantiser *scanned, const quantiser *q,
             const char *why = gzerror(reading->file, &code);
             if (got < 0 && code != Z_BUF_ERROR)
                 return ang_fail(err, ANG_INPUT, "%s: %s", source->label, code == Z_ERRNO ? strerror(errno) : why);
-            return ang_fail(err, ANG_INPUT, "%s: holds %zu voxels, its dimensions need %zu", source->label,
+            return ang_fail(err, ANG_INPUT, "%s: holds too few voxels, %zu; its dimensions need %zu", source->label,
                             done + (size_t)(got > 0 ? got : 0) / size, reading->count);
         }
         if (scanned)

@@ -26,6 +26,9 @@ void ang_notes_append(ang_notes *notes, const ang_notes *more);
 enum { ANG_NOTES_LINE = 1536 }; /* bytes that hold any sentence and the name of any file */
 const char *ang_notes_line(const ang_notes *notes, size_t index, bool named, char *out, size_t size);
 
+/* The ending of a regular noun after `count`: "1 slice", "2 slices". */
+static inline const char *ang_plural(long long count) { return count == 1 ? "" : "s"; }
+
 /* Frees the list and makes it empty. */
 void ang_notes_clear(ang_notes *notes);
 

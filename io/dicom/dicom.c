@@ -286,8 +286,9 @@ static ang_volume *load_folder(const ang_dicom_folder *folder, const char *path,
                           "series %zu of %zu is shown: the largest %s volume; --series picks another", chosen + 1,
                           groups.count, strcmp(first->modality, "CT") == 0 ? "CT" : "image");
         if (group->duplicates > 0)
-            ang_notes_add(&report->assumptions, "%d slices with the same %s and pixels as another were dropped",
-                          group->duplicates, first->has_position ? "position" : "InstanceNumber");
+            ang_notes_add(&report->assumptions, "%d slice%s with the same %s and pixels as another: dropped",
+                          group->duplicates, ang_plural(group->duplicates),
+                          first->has_position ? "position" : "InstanceNumber");
         if (group->phases > 1)
             ang_notes_add(&report->assumptions, "the series holds %d volumes at the same positions: one is shown",
                           group->phases);

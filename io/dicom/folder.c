@@ -119,7 +119,8 @@ static void sum_up(ang_dicom_folder *folder, header_job *job, ang_notes *warning
         if (job->found[i] == ANG_DICOM_FOUND) folder->slices[folder->slice_count++] = job->slices[i];
     }
     if (folder->broken > most_warnings)
-        ang_notes_add(warnings, "%zu more files cannot be read", folder->broken - most_warnings);
+        ang_notes_add(warnings, "%zu more file%s cannot be read", folder->broken - most_warnings,
+                      ang_plural((long long)(folder->broken - most_warnings)));
 }
 
 bool ang_dicom_read_folder(const char *path, int threads, ang_dicom_folder *folder, ang_notes *warnings,

@@ -239,7 +239,7 @@ static bool stack_slices(const ang_dicom_slice *slices, const size_t *order, siz
         step = length / (double)(grid->planes - 1);
         if (grid->missing > 0)
             ang_notes_add(warnings, "%d missing slice%s: interpolated from the neighbours", grid->missing,
-                          grid->missing > 1 ? "s" : "");
+                          ang_plural(grid->missing));
     }
     set_affine(grid, first, ang_vec3_scale(v, step / length));
     return true;

@@ -1,5 +1,6 @@
 #include "io/dicom/write.h"
 
+#include "core/base/notes.h"
 #include "io/dicom/encode.h"
 #include "io/replace.h"
 
@@ -228,7 +229,8 @@ bool ang_dicom_write(const char *folder, const ang_volume *volume, uint64_t seed
     }
     for (int z = 0; z < volume->dims[2]; z++) {
         if (!ang_progress_update(progress, "writing slices", (double)z / volume->dims[2])) {
-            return ang_fail(err, ANG_INTERRUPTED, "%s: interrupted after %d of %d slices", folder, z, volume->dims[2]);
+            return ang_fail(err, ANG_INTERRUPTED, "%s: interrupted after %d of %d slice%s", folder, z, volume->dims[2],
+                            ang_plural(volume->dims[2]));
         }
         char path[4096];
         if (snprintf(path, sizeof path, "%s/IM%04d.dcm", folder, z + 1) >= (int)sizeof path) {

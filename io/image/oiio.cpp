@@ -85,7 +85,8 @@ static bool read_picture(const char *path, const char *format, ang_image *out, a
             return ang_fail(err, ANG_INPUT, "%s: cannot be read as %s (%s)", path, format, reason.c_str());
         }
         if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 4) {
-            return ang_fail(err, ANG_INPUT, "%s: %d channels, %d slices: not a picture of 1 to 4 channels", path,
+            return ang_fail(err, ANG_INPUT,
+                            "%s: not a picture of 1 to 4 channels in one layer (channels %d, layers %d)", path,
                             spec.nchannels, spec.depth);
         }
         std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));

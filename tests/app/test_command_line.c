@@ -194,6 +194,21 @@ static void frames_are_numbered(void **state) {
     assert_false(exists(TMP "/turn-0004.png"));
 }
 
+static void nouns_follow_their_number(void **state) {
+    (void)state;
+    (void)!system("rm -rf " TMP "/single " TMP "/double");
+    expect(0, "phantom -o " TMP "/single --dims 8x8x1 2>&1");
+    assert_non_null(strstr(output, "1 slice and truth.json"));
+    expect(0, "phantom -o " TMP "/double --dims 8x8x2 2>&1");
+    assert_non_null(strstr(output, "2 slices and truth.json"));
+    (void)!system("cp " TMP "/double/IM0001.dcm " TMP "/double/again.dcm");
+    expect(0, "info " TMP "/double 2>/dev/null");
+    assert_non_null(strstr(output, "2 read, 1 duplicate dropped"));
+    assert_non_null(strstr(output, "1 slice with the same position and pixels as another: dropped"));
+    expect(2, "phantom -o " TMP "/single --spacing 1,1 2>&1");
+    assert_non_null(strstr(output, "must be 3 numbers"));
+}
+
 static void presets_are_listed_and_shown(void **state) {
     (void)state;
     expect(0, "presets list");
@@ -241,6 +256,7 @@ int main(void) {
         cmocka_unit_test(nothing_of_the_patient_is_in_the_json),
         cmocka_unit_test(pictures_of_the_same_scene_are_equal),
         cmocka_unit_test(frames_are_numbered),
+        cmocka_unit_test(nouns_follow_their_number),
         cmocka_unit_test(presets_are_listed_and_shown),
         cmocka_unit_test(progress_and_messages_go_to_stderr),
     };
