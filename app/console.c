@@ -85,14 +85,14 @@ void ang_app_say(const ang_notes *notes, const char *prefix) {
     }
 }
 
-bool ang_app_parse_dims(const char *option, const char *text, int count, int *out, ang_error *err) {
+bool ang_app_parse_dims(const char *option, const char *text, int count, int most, int *out, ang_error *err) {
     const char *rest = text;
     for (int i = 0; i < count; i++) {
         char *end;
         long value = strtol(rest, &end, 10);
-        if (end == rest || value < 1 || value > 65536 || *end != (i + 1 < count ? 'x' : '\0'))
-            return ang_fail(err, ANG_USAGE, "--%s %s: must be %s, each from 1 to 65536", option, text,
-                            count == 2 ? "WxH" : "XxYxZ");
+        if (end == rest || value < 1 || value > most || *end != (i + 1 < count ? 'x' : '\0'))
+            return ang_fail(err, ANG_USAGE, "--%s %s: must be %s, each from 1 to %d", option, text,
+                            count == 2 ? "WxH" : "XxYxZ", most);
         out[i] = (int)value;
         rest = end + 1;
     }

@@ -36,8 +36,10 @@ typedef struct option_spec {
     { name, letter, FLAG, verbs, FIELD(field), NULL, 0, 0, NULL, NULL, help }
 
 static const option_spec table[] = {
-    {"output", 'o', TEXT, ANG_VERB_RENDER | ANG_VERB_PHANTOM, FIELD(output), "OUT", 0, 0, NULL, NULL,
-     "what to write: a picture (.png, .tif, .exr; numbered with --frames); for phantom a folder"},
+    {"output", 'o', TEXT, ANG_VERB_RENDER, FIELD(output), "OUT", 0, 0, NULL, NULL,
+     "picture to write: .png or .tif (8 bit), .exr (float), .ppm (8 bit) or .pfm (float); numbered with --frames"},
+    {"output", 'o', TEXT, ANG_VERB_PHANTOM, FIELD(output), "DIR", 0, 0, NULL, NULL,
+     "folder to write; made where it does not exist"},
     TEXT_OPTION("series", READS, series, "N|UID", NULL,
                 "series to load, as numbered by info, or the end of its UID; default: the largest CT volume"),
     TEXT_OPTION("preset", ANG_VERB_RENDER, preset, "NAME|FILE", NULL,

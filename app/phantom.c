@@ -8,9 +8,14 @@
 static bool read_params(const ang_options *options, ang_phantom_params *params, ang_error *err) {
     *params = ang_phantom_params_default;
     int count;
-    if (!ang_app_parse_dims("dims", options->dims, 3, params->dims, err)) return false;
+    /* Rows and columns of a DICOM image are counted in 16 bits. */
+    if (!ang_app_parse_dims("dims", options->dims, 3, 65535, params->dims, err)) return false;
     if (options->spacing && !ang_app_parse_numbers("spacing", options->spacing, 3, 3, params->spacing_mm, &count, err))
         return false;
+    /* To the phantom 0 means the default. */
+    for (int i = 0; options->spacing && i < 3; i++)
+        if (!(params->spacing_mm[i] > 0))
+            return ang_fail(err, ANG_USAGE, "--spacing %s: each must be more than 0 mm", options->spacing);
     params->seed = (uint64_t)options->seed;
     params->noise_hu = options->noise;
     return true;

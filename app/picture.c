@@ -78,7 +78,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     ang_scene *scene = &picture->scene;
     *scene = ang_scene_default(volume);
     int size[2];
-    if (!ang_app_parse_dims("size", options->size, 2, size, err)) return false;
+    if (!ang_app_parse_dims("size", options->size, 2, 65536, size, err)) return false;
     scene->width = size[0];
     scene->height = size[1];
 

@@ -26,8 +26,8 @@ void ang_app_progress_end(ang_app_progress *progress);
 
 /* Prints sentences to stderr, each with `prefix`; files are named: stderr is for the person who runs the program. */
 void ang_app_say(const ang_notes *notes, const char *prefix);
-/* "AxB" or "AxBxC" into `count` whole numbers >= 1. */
-bool ang_app_parse_dims(const char *option, const char *text, int count, int *out, ang_error *err);
+/* "AxB" or "AxBxC" into `count` whole numbers from 1 to `most`. */
+bool ang_app_parse_dims(const char *option, const char *text, int count, int most, int *out, ang_error *err);
 /* Numbers separated by commas: at least `least`, at most `most`; how many came goes to *count. */
 bool ang_app_parse_numbers(const char *option, const char *text, int least, int most, double *out, int *count,
                            ang_error *err);

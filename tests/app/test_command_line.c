@@ -77,6 +77,20 @@ static void help_goes_to_stdout(void **state) {
     expect(0, "--version 2>/dev/null");
 }
 
+static void phantoms_that_cannot_be_are_refused(void **state) {
+    (void)state;
+    expect(2, "phantom -o " TMP "/never --dims 8x8x65536 2>&1");
+    assert_non_null(strstr(output, "each from 1 to 65535"));
+    expect(2, "phantom -o " TMP "/never --dims 8x8x8 --spacing 0,1,1 2>&1");
+    assert_non_null(strstr(output, "--spacing 0,1,1"));
+    assert_false(exists(TMP "/never"));
+    expect(0, "phantom --help");
+    assert_non_null(strstr(output, "folder to write"));
+    assert_null(strstr(output, ".png"));
+    expect(0, "render --help");
+    assert_non_null(strstr(output, ".pfm"));
+}
+
 static void missing_and_foreign_input_give_three(void **state) {
     (void)state;
     expect(3, "info " TMP "/nothing-here 2>&1");
@@ -247,6 +261,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(usage_errors_give_two),
         cmocka_unit_test(help_goes_to_stdout),
+        cmocka_unit_test(phantoms_that_cannot_be_are_refused),
         cmocka_unit_test(missing_and_foreign_input_give_three),
         cmocka_unit_test(outputs_that_cannot_be_written_give_seven),
         cmocka_unit_test(outputs_are_checked_before_the_work),
