@@ -238,8 +238,12 @@ static ang_preset *finish(reader *r, bool opened) {
 }
 
 ang_preset *ang_preset_load(const char *path, ang_error *err) {
+    ang_error own = {0};
+    if (!err) err = &own;
     reader r = {.err = err};
-    return finish(&r, ang_json_open(path, &r.json, err));
+    bool opened = ang_json_open(path, &r.json, err);
+    if (!opened && err->code == ANG_INPUT) err->code = ANG_USAGE; /* a preset is no input but part of the wish */
+    return finish(&r, opened);
 }
 
 ang_preset *ang_preset_parse(const char *file, const char *text, ang_error *err) {

@@ -17,8 +17,8 @@
  * [HU, r, g, b, opacity]; "unit_mm" stands for "unit_distance" and "comment" for "description". Defaults: the file's
  * name, CT, dvr, no shading, ang_phong_default, 1 mm, window 40/400, no iso_hu.
  *
- * NULL with ANG_INPUT where the file cannot be read, ANG_USAGE where it is broken: one sentence with file, line and
- * field. Free with ang_preset_free. Thread safe. */
+ * NULL with ANG_USAGE where the file cannot be read or is broken: one sentence with file, line and field; ANG_LIMIT.
+ * Free with ang_preset_free. Thread safe. */
 ang_preset *ang_preset_load(const char *path, ang_error *err);
 /* The same from text in memory; `file` labels errors and gives the default name. */
 ang_preset *ang_preset_parse(const char *file, const char *text, ang_error *err);

@@ -61,6 +61,8 @@ static void usage_errors_give_two(void **state) {
     assert_non_null(strstr(output, "--mode sideways"));
     expect(2, "render " PHANTOM " -o " TMP "/x.png --preset cta-haed 2>&1");
     assert_non_null(strstr(output, "cta-head"));
+    expect(2, "render " PHANTOM " -o " TMP "/x.png --preset " TMP "/no-such.json 2>&1");
+    assert_non_null(strstr(output, "no-such.json"));
     expect(2, "render " PHANTOM " -o " TMP "/x.png --no-such-option 2>&1");
     expect(2, "render " PHANTOM " -o " TMP "/x.png --clip 1,1,2,2,3,3 2>&1");
     expect(2, "render " PHANTOM " -o " TMP "/x.jpeg2 2>&1");

@@ -141,9 +141,9 @@ static void broken_files_are_explained(void **state) {
         assert_int_equal(err.code, ANG_USAGE);
     }
     assert_null(ang_preset_load("/nowhere/x.json", &err));
-    assert_int_equal(err.code, ANG_INPUT);
+    assert_int_equal(err.code, ANG_USAGE);
     assert_null(ang_preset_load(ANG_PRESETS, &err));
-    assert_int_equal(err.code, ANG_INPUT);
+    assert_int_equal(err.code, ANG_USAGE);
 }
 
 static void lines_are_found(void **state) {
@@ -255,7 +255,7 @@ static void unknown_names_are_explained(void **state) {
     assert_non_null(strstr(err.message, "there are: "));
     assert_null(ang_preset_find("cta-head", none, &err));
     assert_null(ang_preset_find("./cta-head.json", folders, &err));
-    assert_int_equal(err.code, ANG_INPUT);
+    assert_int_equal(err.code, ANG_USAGE);
     ang_preset *p = ang_preset_find("cta-head.json", folders, &err);
     assert_non_null(p);
     ang_preset_free(p);
