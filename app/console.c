@@ -78,8 +78,9 @@ void ang_app_progress_end(ang_app_progress *progress) {
     free(progress);
 }
 
-void ang_app_say(const ang_notes *notes, const char *prefix) {
+void ang_app_say(const ang_notes *notes, const char *prefix, const ang_error *err) {
     for (size_t i = 0; i < notes->count; i++) {
+        if (err && strstr(err->message, notes->text[i])) continue;
         char line[ANG_NOTES_LINE];
         fprintf(stderr, "%s%s\n", prefix, ang_notes_line(notes, i, true, line, sizeof line));
     }

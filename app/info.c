@@ -25,7 +25,7 @@ int ang_app_info(const ang_options *options, ang_error *err) {
     /* What is not loaded is listed all the same (dicom-rules 1). */
     bool listed = volume || (report.series_count > 0 && err->code != ANG_INTERRUPTED);
     if (!listed) {
-        if (!options->quiet) ang_app_say(&report.warnings, "warning: ");
+        if (!options->quiet) ang_app_say(&report.warnings, "warning: ", err);
     } else if (options->json_flag) {
         cJSON *root = cJSON_CreateObject();
         cJSON_AddStringToObject(root, "version", ANG_VERSION);

@@ -200,7 +200,7 @@ static bool run_all(session *run, ang_error *err) {
     ang_notes choices = {0};
     bool made = ang_picture_make(options, run->volume, &run->report, &run->picture, &choices, err);
     /* What was chosen for the user is said at once; the loader's assumptions are for `info` and -v. */
-    if (made && !options->quiet) ang_app_say(&choices, "note: ");
+    if (made && !options->quiet) ang_app_say(&choices, "note: ", NULL);
     for (size_t i = 0; i < choices.count; i++) ang_notes_add(&run->report.assumptions, "%s", choices.text[i]);
     ang_notes_clear(&choices);
     if (!made) return false;
@@ -225,9 +225,9 @@ int ang_app_render(const ang_options *options, ang_error *err) {
     bool done = run_all(&run, err);
     ang_app_progress_end(run.progress);
     if (!options->quiet) {
-        ang_app_say(&run.report.warnings, "warning: ");
-        ang_app_say(&run.summary.warnings, "warning: ");
-        if (options->verbose) ang_app_say(&run.report.assumptions, "note: ");
+        ang_app_say(&run.report.warnings, "warning: ", done ? NULL : err);
+        ang_app_say(&run.summary.warnings, "warning: ", NULL);
+        if (options->verbose) ang_app_say(&run.report.assumptions, "note: ", NULL);
     }
     if (run.renderer) run.method->destroy(run.renderer);
     if (run.gl) ang_gl_destroy(run.gl);

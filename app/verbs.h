@@ -24,8 +24,9 @@ const ang_progress *ang_app_progress_sink(const ang_app_progress *progress);
 /* Ends the line on a terminal and frees. */
 void ang_app_progress_end(ang_app_progress *progress);
 
-/* Prints sentences to stderr, each with `prefix`; files are named: stderr is for the person who runs the program. */
-void ang_app_say(const ang_notes *notes, const char *prefix);
+/* Prints sentences to stderr, each with `prefix`; files are named: stderr is for the person who runs the program. What
+ * `err` (NULL: none) is going to say is left out. */
+void ang_app_say(const ang_notes *notes, const char *prefix, const ang_error *err);
 /* "AxB" or "AxBxC" into `count` whole numbers from 1 to `most`. */
 bool ang_app_parse_dims(const char *option, const char *text, int count, int most, int *out, ang_error *err);
 /* Numbers separated by commas: at least `least`, at most `most`; how many came goes to *count. */

@@ -93,6 +93,21 @@ static void phantoms_that_cannot_be_are_refused(void **state) {
     assert_non_null(strstr(output, ".pfm"));
 }
 
+static int count_of(const char *needle) {
+    int count = 0;
+    for (const char *at = output; (at = strstr(at, needle)); at++) count++;
+    return count;
+}
+
+static void a_refusal_is_said_once(void **state) {
+    (void)state;
+    (void)!system("rm -rf " TMP "/gap; cp -r " PHANTOM " " TMP "/gap; rm " TMP "/gap/IM0007.dcm");
+    expect(4, "render " TMP "/gap -o " TMP "/x.png --strict 2>&1");
+    assert_int_equal(count_of("missing slice"), 1);
+    expect(0, "render " TMP "/gap -o " TMP "/a.png --size 16x16 2>&1");
+    assert_int_equal(count_of("missing slice"), 1);
+}
+
 static void missing_and_foreign_input_give_three(void **state) {
     (void)state;
     expect(3, "info " TMP "/nothing-here 2>&1");
@@ -264,6 +279,7 @@ int main(void) {
         cmocka_unit_test(usage_errors_give_two),
         cmocka_unit_test(help_goes_to_stdout),
         cmocka_unit_test(phantoms_that_cannot_be_are_refused),
+        cmocka_unit_test(a_refusal_is_said_once),
         cmocka_unit_test(missing_and_foreign_input_give_three),
         cmocka_unit_test(outputs_that_cannot_be_written_give_seven),
         cmocka_unit_test(outputs_are_checked_before_the_work),
