@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -32,6 +33,45 @@ bool ang_load_report_hounsfield(const ang_load_report *report) {
            strcmp(report->series[report->chosen].modality, "CT") == 0;
 }
 
+/* Options for raw input are refused where the input is something else: ignored, they would mislead. */
+static bool refuse_raw_options(const char *label, const char *what, const ang_load_options *options, ang_error *err) {
+    const char *name = options->raw_dims      ? "--raw-dims"
+                       : options->raw_type    ? "--raw-type"
+                       : options->raw_spacing ? "--raw-spacing"
+                                              : NULL;
+    return !name || ang_fail(err, ANG_USAGE, "%s is for raw input, and %s is %s: leave it out", name, label, what);
+}
+
+/* Formats that hold one volume have series 1 alone. */
+static bool refuse_other_series(const char *label, const ang_load_options *options, ang_error *err) {
+    char *rest;
+    if (!options->series || (strtol(options->series, &rest, 10) == 1 && !*rest)) return true;
+    return ang_fail(err, ANG_INPUT, "--series %s: %s holds one volume, series 1", options->series, label);
+}
+
+/* What a file of a known format that is not read begins with; NULL where it is none of these. */
+static const char *unread_format(const char *path) {
+    static const struct {
+        const char *start, *name;
+    } formats[] = {{"ObjectType", "MetaImage"}, {"NDims", "MetaImage"}, {"NRRD0", "NRRD"}};
+    char start[16] = "";
+    FILE *file = fopen(path, "rb");
+    if (!file) return NULL;
+    size_t length = fread(start, 1, sizeof start, file);
+    fclose(file);
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        size_t needed = strlen(formats[i].start);
+        if (length >= needed && memcmp(start, formats[i].start, needed) == 0) return formats[i].name;
+    }
+    return NULL;
+}
+
+static ang_volume *load_raw(const char *path, const ang_load_options *options, ang_load_report *report,
+                            const ang_progress *progress, ang_error *err) {
+    if (!refuse_other_series(ang_base_name(path), options, err)) return NULL;
+    return ang_raw_load(path, options, report, progress, err);
+}
+
 static ang_volume *dispatch(const char *path, const ang_load_options *options, ang_load_report *report,
                             const ang_progress *progress, ang_error *err) {
     struct stat status;
@@ -40,22 +80,33 @@ static ang_volume *dispatch(const char *path, const ang_load_options *options, a
         ang_fail(err, ANG_INPUT, "%s: %s", path, strerror(errno));
         return NULL;
     }
-    if (S_ISDIR(status.st_mode)) return ang_dicom_load(path, options, report, progress, err);
-    if (!S_ISREG(status.st_mode)) {
+    bool folder = S_ISDIR(status.st_mode);
+    if (!folder && !S_ISREG(status.st_mode)) {
         ang_fail(err, ANG_INPUT, "%s: is neither a file nor a folder", path);
         return NULL;
     }
-    if (options->raw_dims) return ang_raw_load(path, options, report, progress, err);
-    if (status.st_size == 0) {
+    if (!folder && options->raw_dims) return load_raw(path, options, report, progress, err);
+    if (!folder && status.st_size == 0) {
         ang_fail(err, ANG_INPUT, "%s: is empty", label);
         return NULL;
     }
-    if (ang_dicom_probe(path)) return ang_dicom_load(path, options, report, progress, err);
-    if (ang_nifti_probe(path)) return ang_nifti_load(path, options, report, progress, err);
-    if (ang_raw_probe(path, options)) return ang_raw_load(path, options, report, progress, err);
-    ang_fail(err, ANG_INPUT,
-             "%s: is neither DICOM nor NIfTI-1; a raw volume needs --raw-dims and --raw-type or a sidecar %s.json",
-             label, label);
+    if (folder || ang_dicom_probe(path)) {
+        if (!refuse_raw_options(label, folder ? "a folder" : "DICOM", options, err)) return NULL;
+        return ang_dicom_load(path, options, report, progress, err);
+    }
+    if (ang_nifti_probe(path)) {
+        if (!refuse_raw_options(label, "NIfTI-1", options, err) || !refuse_other_series(label, options, err))
+            return NULL;
+        return ang_nifti_load(path, options, report, progress, err);
+    }
+    if (ang_raw_probe(path, options)) return load_raw(path, options, report, progress, err);
+    const char *unread = unread_format(path);
+    if (unread)
+        ang_fail(err, ANG_INPUT, "%s: is %s, which is not read yet; DICOM, NIfTI-1 and raw volumes are", label, unread);
+    else
+        ang_fail(err, ANG_INPUT,
+                 "%s: is neither DICOM nor NIfTI-1; a raw volume needs --raw-dims and --raw-type or a sidecar %s.json",
+                 label, label);
     return NULL;
 }
 

@@ -11,8 +11,10 @@
 
 /* How to read. Zero-initialised means default. */
 typedef struct ang_load_options {
-    const char
-        *series; /* --series: a number as listed (1, 2, ...) or the end of a SeriesInstanceUID; NULL: largest CT */
+    /* --series: a number as listed (1, 2, ...) or the end of a SeriesInstanceUID; NULL: largest CT. Formats that hold
+     * one volume have series 1. */
+    const char *series;
+    /* Refused with ANG_USAGE where the input is not raw. */
     const char *raw_dims;    /* --raw-dims "XxYxZ"; NULL: a JSON sidecar beside the file (NAME.json) must say it */
     const char *raw_type;    /* --raw-type u8 | i8 | u16 | i16 | f32, little endian */
     const char *raw_spacing; /* --raw-spacing "X,Y,Z" in mm; default 1,1,1 */

@@ -367,6 +367,54 @@ static void test_raw(void **state) {
     }
 }
 
+static void must_refuse(const char *path, const ang_load_options *options, ang_code code, const char *needle) {
+    ang_load_report report;
+    ang_error err = {0};
+    assert_null(ang_load(path, options, &report, NULL, &err));
+    if (err.code != code || !strstr(err.message, needle)) fail_msg("%d, %s", (int)err.code, err.message);
+    ang_load_report_clear(&report);
+}
+
+static void test_options_for_other_formats(void **state) {
+    (void)state;
+    fresh_folder(FOLDER);
+    form f = form_at(0, 1000);
+    small("a", &f);
+    const ang_load_options dims = {.raw_dims = "2x2x2", .raw_type = "u8"}, type = {.raw_type = "u8"},
+                           spacing = {.raw_spacing = "1,1,1"};
+    must_refuse(FOLDER, &dims, ANG_USAGE, "--raw-dims is for raw input, and load-files is a folder");
+    must_refuse(FOLDER, &spacing, ANG_USAGE, "--raw-spacing is for raw input");
+    must_refuse(FOLDER "/a", &type, ANG_USAGE, "--raw-type is for raw input, and a is DICOM");
+
+    write_file("v.raw", "01234567", 8);
+    ang_load_options series = {.raw_dims = "2x2x2", .raw_type = "u8", .series = "2"};
+    must_refuse(FOLDER "/v.raw", &series, ANG_INPUT, "--series 2: v.raw holds one volume");
+    series.series = "1x";
+    must_refuse(FOLDER "/v.raw", &series, ANG_INPUT, "--series 1x");
+    series.series = "";
+    must_refuse(FOLDER "/v.raw", &series, ANG_INPUT, "--series ");
+    series.series = "1";
+    ang_load_report report;
+    ang_volume *v = ang_load(FOLDER "/v.raw", &series, &report, NULL, NULL);
+    assert_non_null(v);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+static void test_formats_that_are_not_read(void **state) {
+    (void)state;
+    static const char meta[] = "ObjectType = Image\nNDims = 3\n", plain[] = "NDims = 3\n", nrrd[] = "NRRD0004\n";
+    fresh_folder(FOLDER);
+    write_file("a.mha", meta, sizeof meta - 1);
+    write_file("b.mhd", plain, sizeof plain - 1);
+    write_file("c.nrrd", nrrd, sizeof nrrd - 1);
+    write_file("d", "NDim", 4);
+    must_fail(FOLDER "/a.mha", ANG_INPUT, "a.mha: is MetaImage, which is not read yet");
+    must_fail(FOLDER "/b.mhd", ANG_INPUT, "is MetaImage");
+    must_fail(FOLDER "/c.nrrd", ANG_INPUT, "is NRRD");
+    must_fail(FOLDER "/d", ANG_INPUT, "a raw volume needs --raw-dims");
+}
+
 #ifdef ANG_WITH_NIFTI
 
 /* A NIfTI-1 header by its byte offsets, little endian. */
@@ -411,6 +459,9 @@ static void test_nifti(void **state) {
     assert_int_equal(report.signed_stored, true);
     ang_volume_free(v);
     ang_load_report_clear(&report);
+    const ang_load_options second = {.series = "2"}, type = {.raw_type = "u8"};
+    must_refuse(FOLDER "/no-ending", &second, ANG_INPUT, "--series 2: no-ending holds one volume");
+    must_refuse(FOLDER "/no-ending", &type, ANG_USAGE, "no-ending is NIfTI-1");
 
     write_file("short.nii", &f, 352 + 10);
     must_fail(FOLDER "/short.nii", ANG_INPUT, "short.nii");
@@ -438,6 +489,8 @@ int main(void) {
         cmocka_unit_test(test_invalid_spacing),
         cmocka_unit_test(test_interrupt),
         cmocka_unit_test(test_raw),
+        cmocka_unit_test(test_options_for_other_formats),
+        cmocka_unit_test(test_formats_that_are_not_read),
 #ifdef ANG_WITH_NIFTI
         cmocka_unit_test(test_nifti),
 #endif
