@@ -66,6 +66,12 @@ static const char *unread_format(const char *path) {
     return NULL;
 }
 
+#ifdef ANG_WITH_NIFTI
+#define READ_FORMATS "DICOM, NIfTI-1 and raw volumes"
+#else
+#define READ_FORMATS "DICOM and raw volumes"
+#endif
+
 static ang_volume *load_raw(const char *path, const ang_load_options *options, ang_load_report *report,
                             const ang_progress *progress, ang_error *err) {
     if (!refuse_other_series(ang_base_name(path), options, err)) return NULL;
@@ -102,7 +108,7 @@ static ang_volume *dispatch(const char *path, const ang_load_options *options, a
     if (ang_raw_probe(path, options)) return load_raw(path, options, report, progress, err);
     const char *unread = unread_format(path);
     if (unread)
-        ang_fail(err, ANG_INPUT, "%s: is %s, which is not read yet; DICOM, NIfTI-1 and raw volumes are", label, unread);
+        ang_fail(err, ANG_INPUT, "%s: is %s, which is not read yet; " READ_FORMATS " are", label, unread);
     else
         ang_fail(err, ANG_INPUT,
                  "%s: is neither DICOM nor NIfTI-1; a raw volume needs --raw-dims and --raw-type or a sidecar %s.json",

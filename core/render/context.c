@@ -90,6 +90,14 @@ bool ang_gl_is_software(const ang_gl *gl) {
     return false;
 }
 
+/* What to install for a backend; NULL where this build cannot use it. */
+static const char *packages_for(bool egl, bool osmesa) {
+#ifndef ANG_WITH_OSMESA
+    osmesa = false;
+#endif
+    return egl && osmesa ? "libegl1 or libosmesa6" : egl ? "libegl1" : osmesa ? "libosmesa6" : NULL;
+}
+
 ang_gl *ang_gl_create(ang_backend backend, ang_error *err) {
     ang_gl *gl = ang_alloc(1, sizeof *gl, "the GL context", err);
     if (!gl) return NULL;
@@ -100,11 +108,14 @@ ang_gl *ang_gl_create(ang_backend backend, ang_error *err) {
     if (osmesa && ang_gl_open_osmesa(gl, &attempts)) return gl;
     if (egl && ang_gl_open_egl(gl, ANG_EGL_SOFTWARE, &attempts)) return gl;
     free(gl);
+    const char *packages = packages_for(egl, osmesa);
     if (!egl && !osmesa)
-        ang_fail(err, ANG_GL, "no OpenGL was asked for: choose --backend auto, or a method that needs none (cpu)");
+        ang_fail(err, ANG_GL, "no OpenGL was asked for: choose --backend auto or --method reference, which needs none");
+    else if (packages)
+        ang_fail(err, ANG_GL, "no usable OpenGL (%s); install %s, or choose --method reference", attempts.text,
+                 packages);
     else
-        ang_fail(err, ANG_GL, "no usable OpenGL (%s); install libegl1 or libosmesa6, or choose --method reference",
-                 attempts.text);
+        ang_fail(err, ANG_GL, "no usable OpenGL (%s); choose another --backend or --method reference", attempts.text);
     return NULL;
 }
 

@@ -146,6 +146,8 @@ static void an_empty_picture_is_said(void **state) {
 static void no_gl_gives_five(void **state) {
     (void)state;
     expect(5, "render " PHANTOM " -o " TMP "/x.png --size 16x16 --method singlepass --backend none --quiet 2>&1");
+    assert_non_null(strstr(output, "--method reference"));
+    assert_null(strstr(output, "cpu"));
 }
 
 static cJSON *parsed(void) {

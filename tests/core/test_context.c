@@ -29,6 +29,19 @@ static ang_gl *open_backend(ang_backend backend) {
     return NULL;
 }
 
+static void advice_can_be_followed(void **state) {
+    (void)state;
+    ang_error err = {0};
+    assert_null(ang_gl_create(ANG_BACKEND_NONE, &err));
+    assert_int_equal(err.code, ANG_GL);
+    assert_non_null(strstr(err.message, "--method reference"));
+#ifndef ANG_WITH_OSMESA
+    assert_null(ang_gl_create(ANG_BACKEND_OSMESA, &err));
+    assert_non_null(strstr(err.message, "left out of this build"));
+    assert_null(strstr(err.message, "install"));
+#endif
+}
+
 static void backend_names_round_trip(void **state) {
     (void)state;
     for (int i = ANG_BACKEND_AUTO; i <= ANG_BACKEND_NONE; i++)
@@ -232,6 +245,7 @@ static void volumes_beyond_the_limit_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(advice_can_be_followed),
         cmocka_unit_test(backend_names_round_trip),
         cmocka_unit_test(contexts_come_and_go_in_turns),
         cmocka_unit_test(errors_are_noticed_once),
