@@ -100,6 +100,9 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     if (scene->mode == ANG_MODE_ISO && isnan(scene->iso_hu))
         return ang_fail(err, ANG_USAGE, "--mode iso: preset %s names no iso value; give one with --iso HU",
                         preset->name);
+    if (scene->mode != ANG_MODE_ISO && !isnan(options->iso))
+        ang_notes_add(assumptions, "--iso has no effect in mode %s; --mode iso shows the surface",
+                      ang_mode_name(scene->mode));
 
     picture->view = ang_view_default;
     if (!ang_view_parse(options->view, &picture->view, err)) return false;

@@ -221,6 +221,8 @@ int ang_app_render(const ang_options *options, ang_error *err) {
     }
     if (options->frames > 1 && options->orbit == 0 && !options->quiet)
         fprintf(stderr, "note: without --orbit all %d pictures are the same\n", options->frames);
+    if (options->orbit != 0 && options->frames == 1 && options->repeat == 0 && !options->quiet)
+        fprintf(stderr, "note: --orbit turns nothing without --frames or --repeat\n");
     session run = {.options = options, .progress = ang_app_progress_start(options->quiet)};
     bool done = run_all(&run, err);
     ang_app_progress_end(run.progress);

@@ -143,6 +143,18 @@ static void an_empty_picture_is_said(void **state) {
     assert_null(strstr(output, "empty"));
 }
 
+static void options_without_effect_are_said(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --orbit 90 --iso 300 2>&1");
+    assert_non_null(strstr(output, "note: --orbit turns nothing"));
+    assert_non_null(strstr(output, "note: --iso has no effect in mode dvr"));
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --orbit 90 --repeat 2 --mode iso --iso 300 2>&1");
+    assert_null(strstr(output, "--orbit"));
+    assert_null(strstr(output, "--iso"));
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --orbit 90 --iso 300 --quiet 2>&1");
+    assert_string_equal(output, "");
+}
+
 static void no_gl_gives_five(void **state) {
     (void)state;
     expect(5, "render " PHANTOM " -o " TMP "/x.png --size 16x16 --method singlepass --backend none --quiet 2>&1");
@@ -286,6 +298,7 @@ int main(void) {
         cmocka_unit_test(outputs_that_cannot_be_written_give_seven),
         cmocka_unit_test(outputs_are_checked_before_the_work),
         cmocka_unit_test(an_empty_picture_is_said),
+        cmocka_unit_test(options_without_effect_are_said),
         cmocka_unit_test(no_gl_gives_five),
         cmocka_unit_test(info_and_render_describe_the_input),
         cmocka_unit_test(nothing_of_the_patient_is_in_the_json),
