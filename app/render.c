@@ -125,6 +125,28 @@ static bool explain(session *run, ang_error *err) {
     return true;
 }
 
+/* Projections of a value over air around the body often lie outside the window as a whole. */
+static void note_flat(session *run) {
+    const ang_scene *scene = &run->picture.scene;
+    if (scene->mode != ANG_MODE_MIP && scene->mode != ANG_MODE_MINIP && scene->mode != ANG_MODE_MEAN) return;
+    size_t values = 4 * (size_t)run->image.width * (size_t)run->image.height;
+    double least = INFINITY, greatest = -INFINITY;
+    for (size_t i = 0; i < values; i += 4) {
+        if (!(run->image.rgba[i + 3] > 0)) continue;
+        double grey = (double)(run->image.rgba[i] / run->image.rgba[i + 3]);
+        least = fmin(least, grey);
+        greatest = fmax(greatest, grey);
+    }
+    bool covered = greatest >= least;
+    if (!covered || greatest - least > 0.5 / 255) return;
+    ang_notes_add(&run->summary.warnings,
+                  "the picture is all one grey: in mode %s nothing differs within the window, %.6g to %.6g%s; --preset "
+                  "with another window helps, or --clip that leaves the air around the body out",
+                  ang_mode_name(scene->mode), scene->window_centre - scene->window_width / 2,
+                  scene->window_centre + scene->window_width / 2,
+                  ang_load_report_hounsfield(&run->report) ? " HU" : "");
+}
+
 static void turn_camera(session *run, double degrees) {
     ang_view view = run->picture.view;
     view.azimuth_deg += degrees;
@@ -166,6 +188,7 @@ static bool render_all(session *run, ang_error *err) {
         }
         note_step(run);
         note_empty(run);
+        note_flat(run);
         frame_path(options->output, frame, options->frames, path, sizeof path);
         if (!write_picture(run, path, err)) return false;
         if (!options->quiet && options->verbose) fprintf(stderr, "%s: %.0f ms\n", path, milliseconds);

@@ -143,6 +143,18 @@ static void an_empty_picture_is_said(void **state) {
     assert_null(strstr(output, "empty"));
 }
 
+static void a_picture_of_one_grey_is_said(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --mode minip 2>&1");
+    assert_non_null(strstr(output, "warning: the picture is all one grey: in mode minip"));
+    assert_non_null(strstr(output, " HU;"));
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --mode mip 2>&1");
+    assert_null(strstr(output, "one grey"));
+    /* Empty is another matter, and opaque colour is none of its business. */
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --mode iso --iso 9999 2>&1");
+    assert_null(strstr(output, "one grey"));
+}
+
 static void options_without_effect_are_said(void **state) {
     (void)state;
     expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --orbit 90 --iso 300 2>&1");
@@ -298,6 +310,7 @@ int main(void) {
         cmocka_unit_test(outputs_that_cannot_be_written_give_seven),
         cmocka_unit_test(outputs_are_checked_before_the_work),
         cmocka_unit_test(an_empty_picture_is_said),
+        cmocka_unit_test(a_picture_of_one_grey_is_said),
         cmocka_unit_test(options_without_effect_are_said),
         cmocka_unit_test(no_gl_gives_five),
         cmocka_unit_test(info_and_render_describe_the_input),
