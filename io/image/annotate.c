@@ -13,10 +13,13 @@
 typedef struct sheet {
     int width, height;
     float *mask;
-    const char *font; /* NULL: no text */
-    int size;         /* of letters, pixels */
-    int margin;       /* from the picture's edges, pixels */
+    const char *font;
+    int size;   /* of letters, pixels */
+    int margin; /* from the picture's edges, pixels */
 } sheet;
+
+#ifdef ANG_WITH_OIIO
+#define FONT_LACKS "the font DejaVuSans.ttf is missing; install fonts-dejavu-core"
 
 static const char *find_font(void) {
     static const char *const places[] = {
@@ -29,11 +32,16 @@ static const char *find_font(void) {
     }
     return NULL;
 }
+#else
+#define FONT_LACKS "this build has no OpenImageIO"
+
+static const char *find_font(void) { return NULL; }
+#endif
 
 static bool text_extent(const sheet *sheet, const char *text, int size, int *width, int *top, int *bottom) {
     *width = *top = *bottom = 0;
 #ifdef ANG_WITH_OIIO
-    return sheet->font && *text && ang_oiio_text_size(text, size, sheet->font, width, top, bottom);
+    return *text && ang_oiio_text_size(text, size, sheet->font, width, top, bottom);
 #else
     (void)sheet, (void)text, (void)size;
     return false;
@@ -42,9 +50,7 @@ static bool text_extent(const sheet *sheet, const char *text, int size, int *wid
 
 static void draw_text(sheet *sheet, int x, int baseline, const char *text, int size, int align) {
 #ifdef ANG_WITH_OIIO
-    if (sheet->font && *text) {
-        ang_oiio_text(sheet->mask, sheet->width, sheet->height, x, baseline, text, size, sheet->font, align);
-    }
+    if (*text) ang_oiio_text(sheet->mask, sheet->width, sheet->height, x, baseline, text, size, sheet->font, align);
 #else
     (void)sheet, (void)x, (void)baseline, (void)text, (void)size, (void)align;
 #endif
@@ -65,6 +71,8 @@ static void draw_box(sheet *sheet, double x0, double x1, int y0, int y1) {
 static void draw_bar(sheet *sheet, const ang_annotation *a, int small) {
     int right = sheet->width - sheet->margin;
     if (!(a->bar_mm > 0) || a->bar_pixels > right - sheet->margin) return;
+    int width, top, descent;
+    if (!text_extent(sheet, a->bar_label, small, &width, &top, &descent)) return;
     int thick = sheet->size >= 22 ? sheet->size / 11 : 1, tick = sheet->size / 2;
     int bottom = sheet->height - sheet->margin;
     double left = right - a->bar_pixels;
@@ -72,11 +80,9 @@ static void draw_bar(sheet *sheet, const ang_annotation *a, int small) {
     draw_box(sheet, left, left + thick, bottom - tick, bottom);
     draw_box(sheet, right - thick, right, bottom - tick, bottom);
 
-    int width, top, descent;
     /* A narrow picture has no room for "at the centre" beside the bottom letter: the words go below one another. */
     char label[sizeof a->bar_label];
     memcpy(label, a->bar_label, sizeof label);
-    if (!text_extent(sheet, label, small, &width, &top, &descent)) return;
     int room = sheet->width / 2 - sheet->margin - 2 * sheet->size, line = bottom - tick - small / 2;
     char *second = strstr(label, " at ");
     if (width > room && second) {
@@ -175,19 +181,15 @@ bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_
         if (warnings) ang_notes_add(warnings, "the picture is too small for letters and a bar: none are drawn");
         return true;
     }
+
+    sheet.font = find_font();
+    if (!sheet.font) {
+        /* A bar without its length would say nothing. */
+        if (warnings) ang_notes_add(warnings, "letters, caption and bar are left out of the picture: " FONT_LACKS);
+        return true;
+    }
     if (sides_only && warnings)
         ang_notes_add(warnings, "the picture is too flat for more than the letters at its sides");
-
-#ifdef ANG_WITH_OIIO
-    sheet.font = find_font();
-    if (!sheet.font && warnings) {
-        ang_notes_add(warnings, "no letters on the picture: the font DejaVuSans.ttf is missing; install "
-                                "fonts-dejavu-core");
-    }
-#else
-    (void)find_font;
-    if (warnings) ang_notes_add(warnings, "no letters on the picture: this build has no OpenImageIO");
-#endif
     sheet.mask = ang_alloc((size_t)image->width * (size_t)image->height, sizeof *sheet.mask, "annotation", err);
     unsigned char *rows = sheet.mask ? ang_alloc((size_t)image->height, 1, "annotation", err) : NULL;
     if (rows) {

@@ -1,3 +1,4 @@
+#include "io/image/annotate.h"
 #include "io/image/image_io.h"
 #include "io/replace.h"
 
@@ -21,7 +22,9 @@
 
 enum { W = 37, H = 23 };
 static const double black[4] = {0, 0, 0, 1};
+#ifdef ANG_WITH_OIIO
 static const double none[4] = {0, 0, 0, 0};
+#endif
 static char folder[512];
 
 static int setup(void **state) {
@@ -220,11 +223,38 @@ static void files_hold_nothing_that_identifies(void **state) {
 #endif
 }
 
+/* Letters, caption and bar, or none of them: a bar without its length says nothing. */
+static void annotations_are_whole_or_not_there(void **state) {
+    (void)state;
+    ang_annotation annotation = {
+        .left = {"R"}, .bar_mm = 50, .bar_pixels = 40, .bar_label = "50 mm", .caption = "cta-head, dvr"};
+    ang_image image;
+    ang_notes warnings = {0};
+    ang_error err;
+    assert_true(ang_image_create(&image, 200, 160, &err));
+    assert_true(ang_image_annotate(&image, &annotation, &warnings, &err));
+    bool drawn = false;
+    for (size_t i = 0; i < 4 * 200 * 160; i++) drawn = drawn || image.rgba[i] > 0;
+#ifdef ANG_WITH_OIIO
+    assert_int_equal(drawn, warnings.count == 0);
+#else
+    assert_false(drawn);
+    assert_int_equal(warnings.count, 1);
+#endif
+    if (warnings.count > 0) assert_non_null(strstr(warnings.text[0], "letters, caption and bar are left out"));
+    ang_notes_clear(&warnings);
+    ang_image_clear(&image);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_format_comes_back),     cmocka_unit_test(float_is_not_clipped_and_keeps_rows),
-        cmocka_unit_test(background_shows_through),    cmocka_unit_test(failures_name_the_file_and_leave_nothing),
-        cmocka_unit_test(broken_pictures_are_refused), cmocka_unit_test(files_hold_nothing_that_identifies),
+        cmocka_unit_test(every_format_comes_back),
+        cmocka_unit_test(float_is_not_clipped_and_keeps_rows),
+        cmocka_unit_test(background_shows_through),
+        cmocka_unit_test(failures_name_the_file_and_leave_nothing),
+        cmocka_unit_test(annotations_are_whole_or_not_there),
+        cmocka_unit_test(broken_pictures_are_refused),
+        cmocka_unit_test(files_hold_nothing_that_identifies),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
