@@ -69,10 +69,7 @@ static bool compare(const ang_options *options, ang_image *a, ang_image *b, ang_
 }
 
 int ang_app_check(const ang_options *options, ang_error *err) {
-    if (options->argument_count != 2) {
-        ang_fail(err, ANG_USAGE, "check: give two pictures to compare");
-        return ANG_USAGE;
-    }
+    if (!ang_app_arguments(options, 2, "check: give two pictures to compare", err)) return ANG_USAGE;
     ang_image a = {0}, b = {0};
     bool equal = compare(options, &a, &b, err);
     ang_image_clear(&a);

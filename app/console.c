@@ -86,6 +86,14 @@ void ang_app_say(const ang_notes *notes, const char *prefix, const ang_error *er
     }
 }
 
+bool ang_app_arguments(const ang_options *options, int count, const char *wanted, ang_error *err) {
+    if (options->argument_count == count) return true;
+    /* What `render --json` takes, another verb reads as one more argument. */
+    if (options->json_flag && options->argument_count == count + 1)
+        return ang_fail(err, ANG_USAGE, "%s; --json takes no value here: it prints to standard output", wanted);
+    return ang_fail(err, ANG_USAGE, "%s", wanted);
+}
+
 bool ang_app_parse_dims(const char *option, const char *text, int count, int most, int *out, ang_error *err) {
     const char *rest = text;
     for (int i = 0; i < count; i++) {

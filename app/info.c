@@ -8,10 +8,7 @@
 #include <stdlib.h>
 
 int ang_app_info(const ang_options *options, ang_error *err) {
-    if (options->argument_count != 1) {
-        ang_fail(err, ANG_USAGE, "info: give one file or folder to read");
-        return ANG_USAGE;
-    }
+    if (!ang_app_arguments(options, 1, "info: give one file or folder to read", err)) return ANG_USAGE;
     ang_load_options how = {.series = options->series,
                             .raw_dims = options->raw_dims,
                             .raw_type = options->raw_type,

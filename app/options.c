@@ -93,7 +93,7 @@ static const option_spec table[] = {
     TEXT_OPTION("raw-type", READS, raw_type, "TYPE", NULL, "u8, i8, u16, i16 or f32, little endian"),
     TEXT_OPTION("raw-spacing", READS, raw_spacing, "X,Y,Z", NULL, "voxel spacing of raw input in mm; default 1,1,1"),
     TEXT_OPTION("json", ANG_VERB_RENDER, json, "FILE|-", NULL, "write what was done, its error and its cost as JSON"),
-    FLAG_OPTION("json", 0, ANG_VERB_INFO | ANG_VERB_CHECK, json_flag, "print JSON"),
+    FLAG_OPTION("json", 0, ANG_VERB_INFO | ANG_VERB_CHECK, json_flag, "print JSON to standard output"),
     TEXT_OPTION("dims", ANG_VERB_PHANTOM, dims, "XxYxZ", "512x512x96", "voxels of the phantom"),
     TEXT_OPTION("spacing", ANG_VERB_PHANTOM, spacing, "X,Y,Z", NULL,
                 "voxel spacing in mm; default: the head fills the volume (0.45,0.45,1 at 512x512x96)"),
@@ -180,6 +180,8 @@ bool ang_options_parse(ang_verb verb, int argc, char **argv, ang_options *option
     int code;
     while ((code = getopt_long(argc, argv, letters, long_options, NULL)) != -1) {
         const char *given = optind > 0 ? argv[optind - 1] : "";
+        if (code == '?' && optopt >= 256)
+            return ang_fail(err, ANG_USAGE, "--%s takes no value", table[optopt - 256].name);
         if (code == '?') return ang_fail(err, ANG_USAGE, "unknown option %s; --help lists what there is", given);
         if (code == ':') return ang_fail(err, ANG_USAGE, "option %s needs a value; --help says which", given);
         int index = code - 256;

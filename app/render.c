@@ -234,10 +234,7 @@ static bool run_all(session *run, ang_error *err) {
 }
 
 int ang_app_render(const ang_options *options, ang_error *err) {
-    if (options->argument_count != 1) {
-        ang_fail(err, ANG_USAGE, "render: give one file or folder to read");
-        return ANG_USAGE;
-    }
+    if (!ang_app_arguments(options, 1, "render: give one file or folder to read", err)) return ANG_USAGE;
     if (!options->output) {
         ang_fail(err, ANG_USAGE, "render: give a picture to write with -o OUT.png");
         return ANG_USAGE;

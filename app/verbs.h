@@ -27,6 +27,8 @@ void ang_app_progress_end(ang_app_progress *progress);
 /* Prints sentences to stderr, each with `prefix`; files are named: stderr is for the person who runs the program. What
  * `err` (NULL: none) is going to say is left out. */
 void ang_app_say(const ang_notes *notes, const char *prefix, const ang_error *err);
+/* Whether `count` arguments are there that are no options. False with ANG_USAGE: `wanted` says what they should be. */
+bool ang_app_arguments(const ang_options *options, int count, const char *wanted, ang_error *err);
 /* "AxB" or "AxBxC" into `count` whole numbers from 1 to `most`. */
 bool ang_app_parse_dims(const char *option, const char *text, int count, int most, int *out, ang_error *err);
 /* Numbers separated by commas: at least `least`, at most `most`; how many came goes to *count. */

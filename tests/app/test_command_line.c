@@ -69,6 +69,20 @@ static void usage_errors_give_two(void **state) {
     assert_false(exists(TMP "/x.png"));
 }
 
+static void json_takes_no_value_but_for_render(void **state) {
+    (void)state;
+    static const char *const commands[] = {"info " PHANTOM " --json - 2>&1", "info " PHANTOM " --json x.json 2>&1",
+                                           "info " PHANTOM " --json=- 2>&1", "check a.png b.png --json - 2>&1"};
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        expect(2, commands[i]);
+        if (!strstr(output, "--json takes no value")) fail_msg("%s: %s", commands[i], output);
+    }
+    expect(2, "info " PHANTOM " " PHANTOM " 2>&1");
+    assert_null(strstr(output, "--json"));
+    expect(2, "info " PHANTOM " --jsom 2>&1");
+    assert_non_null(strstr(output, "unknown option --jsom"));
+}
+
 static void help_goes_to_stdout(void **state) {
     (void)state;
     expect(0, "--help 2>/dev/null");
@@ -303,6 +317,7 @@ static void progress_and_messages_go_to_stderr(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(usage_errors_give_two),
+        cmocka_unit_test(json_takes_no_value_but_for_render),
         cmocka_unit_test(help_goes_to_stdout),
         cmocka_unit_test(phantoms_that_cannot_be_are_refused),
         cmocka_unit_test(a_refusal_is_said_once),
