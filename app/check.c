@@ -31,11 +31,11 @@ static void print_json(const ang_metrics *metrics) {
 }
 
 static void print_text(const ang_metrics *metrics) {
-    printf("max    %.4g levels of 255\n", metrics->max);
-    printf("rms    %.4g levels of 255\n", metrics->rms);
-    printf("p99.9  %.4g levels of 255\n", metrics->p999);
+    printf("max    %.4g levels of 255, of the channel that differs most\n", metrics->max);
+    printf("rms    %.4g levels of 255, over pixels, of the channel that differs most\n", metrics->rms);
+    printf("p99.9  %.4g levels of 255, of the channel that differs most\n", metrics->p999);
     if (isfinite(metrics->psnr))
-        printf("psnr   %.2f dB\n", metrics->psnr);
+        printf("psnr   %.2f dB, over pixels and all four channels\n", metrics->psnr);
     else
         printf("psnr   infinite (the pictures are equal)\n");
     if (isfinite(metrics->ssim))

@@ -56,7 +56,9 @@ static const option_spec table[] = {
     TEXT_OPTION("size", ANG_VERB_RENDER, size, "WxH", "512x512", "picture size in pixels"),
     TEXT_OPTION(
         "view", ANG_VERB_RENDER, view, "VIEW", "anterior",
-        "anterior, posterior, left, right, superior, inferior (where the camera stands), or AZ,EL[,ROLL] in degrees"),
+        "anterior, posterior, left, right, superior, inferior (where the camera stands), or AZ,EL[,ROLL] in degrees; "
+        "superior and inferior have anterior up, superior with the patient's right on the right: an axial slice as "
+        "displayed, mirrored"),
     REAL_OPTION("zoom", ANG_VERB_RENDER, zoom, "X", 1e-3, 1e4, "1", NULL,
                 "magnification; at 1 all of the volume is inside the picture"),
     CHOICE_OPTION("projection", projection, "perspective|parallel", "perspective", "projection"),

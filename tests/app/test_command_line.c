@@ -90,6 +90,7 @@ static void help_goes_to_stdout(void **state) {
     expect(0, "render --help 2>/dev/null");
     assert_non_null(strstr(output, "--termination"));
     assert_non_null(strstr(output, "default 0.5"));
+    assert_non_null(strstr(output, "mirror"));
     expect(0, "--version 2>/dev/null");
 }
 
@@ -248,6 +249,8 @@ static void pictures_of_the_same_scene_are_equal(void **state) {
     expect(0, "render " PHANTOM " -o " TMP "/c.png --size 64x48 --preset ct-bone --view left --quiet");
     expect(1, "check " TMP "/a.png " TMP "/c.png --heat " TMP "/heat.png 2>/dev/null");
     assert_true(exists(TMP "/heat.png"));
+    expect(0, "check " TMP "/a.png " TMP "/c.png --threshold 255");
+    assert_non_null(strstr(output, "dB, over pixels and all four channels"));
     expect(0, "check " TMP "/a.png " TMP "/c.png --threshold 255 --json");
     cJSON *json = parsed();
     assert_true(at(json, "max", -1) > 10);
