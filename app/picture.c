@@ -86,6 +86,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     if (!picture->preset) return false;
     const ang_preset *preset = picture->preset;
     scene->transfer = preset->transfer;
+    picture->shift_hu = options->shift;
     if (options->shift != 0) {
         picture->shifted = ang_transfer_shifted(preset->transfer, options->shift, err);
         if (!picture->shifted) return false;

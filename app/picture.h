@@ -13,6 +13,7 @@
 typedef struct ang_picture {
     ang_preset *preset;
     ang_transfer *shifted; /* where --shift moved the preset's */
+    double shift_hu;
     ang_view view;
     ang_scene scene;
     ang_render_options render;

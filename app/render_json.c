@@ -71,6 +71,40 @@ static cJSON *plan_json(const ang_picture *picture, const ang_method *method, co
     return plan;
 }
 
+static void add_point(cJSON *object, const char *name, ang_vec3 p) {
+    cJSON_AddItemToObject(object, name, cJSON_CreateDoubleArray((double[3]){p.x, p.y, p.z}, 3));
+}
+
+/* What the options made of the picture, so that it can be made again. A preset is called by the name it gives itself:
+ * its path may say more. */
+static cJSON *picture_json(const ang_picture *picture) {
+    const ang_scene *scene = &picture->scene;
+    cJSON *out = cJSON_CreateObject();
+    cJSON_AddStringToObject(out, "preset", picture->preset->name);
+    cJSON_AddStringToObject(out, "mode", ang_mode_name(scene->mode));
+    cJSON_AddStringToObject(out, "shading", ang_shading_name(scene->shading));
+    cJSON *window = cJSON_AddObjectToObject(out, "window");
+    ang_json_add_number(window, "centre", scene->window_centre);
+    ang_json_add_number(window, "width", scene->window_width);
+    ang_json_add_number(out, "iso_hu", scene->iso_hu);
+    ang_json_add_number(out, "shift", picture->shift_hu);
+    cJSON *view = cJSON_AddObjectToObject(out, "view");
+    ang_json_add_number(view, "azimuth", picture->view.azimuth_deg);
+    ang_json_add_number(view, "elevation", picture->view.elevation_deg);
+    ang_json_add_number(view, "roll", picture->view.roll_deg);
+    ang_json_add_number(out, "zoom", picture->view.zoom);
+    cJSON_AddStringToObject(out, "projection", ang_projection_name(picture->view.projection));
+    ang_json_add_number(out, "fov_deg", picture->view.fov_deg);
+    cJSON_AddItemToObject(out, "size", cJSON_CreateIntArray((int[2]){scene->width, scene->height}, 2));
+    cJSON *clip = cJSON_AddObjectToObject(out, "clip");
+    add_point(clip, "lower", scene->clip_lower);
+    add_point(clip, "upper", scene->clip_upper);
+    cJSON_AddItemToObject(out, "background", cJSON_CreateDoubleArray(scene->background, 4));
+    ang_json_add_number(out, "step_voxels", picture->render.step_voxels);
+    ang_json_add_number(out, "termination", picture->render.termination);
+    return out;
+}
+
 static cJSON *error_json(const ang_picture *picture, const ang_method *method, const ang_render_summary *summary) {
     cJSON *error = cJSON_CreateObject();
     const ang_scene *scene = &picture->scene;
@@ -109,6 +143,7 @@ bool ang_render_json_write(const char *path, const ang_volume *volume, const ang
     cJSON *root = cJSON_CreateObject();
     cJSON_AddStringToObject(root, "version", ANG_VERSION);
     cJSON_AddItemToObject(root, "input", ang_load_report_json(volume, report, keep_phi));
+    cJSON_AddItemToObject(root, "picture", picture_json(picture));
     cJSON_AddItemToObject(root, "plan", plan_json(picture, method, summary));
     cJSON_AddItemToObject(root, "error", error_json(picture, method, summary));
     cJSON_AddItemToObject(root, "time_ms", time_json(summary));

@@ -1,4 +1,4 @@
-/* What `render --json` says: input, plan, error, cost. */
+/* What `render --json` says: input, picture, plan, error, cost. */
 #ifndef ANG_APP_RENDER_JSON_H
 #define ANG_APP_RENDER_JSON_H
 
@@ -20,7 +20,8 @@ typedef struct ang_render_summary {
 /* Sorts `milliseconds` and fills the frame times. */
 void ang_render_summary_times(ang_render_summary *summary, double *milliseconds, int count);
 
-/* Writes the JSON to a file (atomically) or, for "-", to stdout. False with ANG_OUTPUT, ANG_LIMIT. */
+/* Writes the JSON to a file (atomically) or, for "-", to stdout. Its "picture" is in HU, degrees, pixels and, for the
+ * clip box, voxel indices; with several frames its view is that of the first. False with ANG_OUTPUT, ANG_LIMIT. */
 bool ang_render_json_write(const char *path, const ang_volume *volume, const ang_load_report *report,
                            const ang_picture *picture, const ang_method *method, const ang_render_summary *summary,
                            bool keep_phi, ang_error *err);

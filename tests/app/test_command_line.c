@@ -228,6 +228,37 @@ static void info_and_render_describe_the_input(void **state) {
     cJSON_Delete(json);
 }
 
+static void the_json_says_what_picture_it_was(void **state) {
+    (void)state;
+    (void)!system("mkdir -p " TMP "/doe-john; sed 's/\"name\": \"ct-mip\"/\"name\": \"mine\"/' " ANG_PRESETS
+                  "/ct-mip.json > " TMP "/doe-john/secret.json");
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --preset " TMP
+              "/doe-john/secret.json --size 40x30 --shift 10 --iso 250 "
+              "--view 30,20,10 --zoom 1.5 --projection parallel --fov 40 --clip 0%,50%,0%,100%,0%,100% "
+              "--background 1,0.5,0 --step 2 --termination 0.9 --json - 2>/dev/null");
+    assert_null(strstr(output, "doe-john"));
+    assert_null(strstr(output, "secret"));
+    cJSON *json = parsed();
+    const cJSON *picture = cJSON_GetObjectItemCaseSensitive(json, "picture");
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(picture, "preset")->valuestring, "mine");
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(picture, "mode")->valuestring, "mip");
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(picture, "shading")->valuestring, "none");
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(picture, "projection")->valuestring, "parallel");
+    const cJSON *window = cJSON_GetObjectItemCaseSensitive(picture, "window");
+    assert_true(at(window, "centre", -1) == 330 && at(window, "width", -1) == 900); /* moved by the shift */
+    assert_true(at(picture, "iso_hu", -1) == 250 && at(picture, "shift", -1) == 10);
+    const cJSON *view = cJSON_GetObjectItemCaseSensitive(picture, "view");
+    assert_true(at(view, "azimuth", -1) == 30 && at(view, "elevation", -1) == 20 && at(view, "roll", -1) == 10);
+    assert_true(at(picture, "zoom", -1) == 1.5 && at(picture, "fov_deg", -1) == 40);
+    assert_true(at(picture, "size", 0) == 40 && at(picture, "size", 1) == 30);
+    const cJSON *clip = cJSON_GetObjectItemCaseSensitive(picture, "clip");
+    assert_true(fabs(at(clip, "lower", 0)) < 1e-9 && fabs(at(clip, "upper", 0) - 31.5) < 1e-9);
+    assert_true(fabs(at(clip, "upper", 2) - 23) < 1e-9);
+    assert_true(at(picture, "background", 1) == 0.5 && at(picture, "background", 3) == 1);
+    assert_true(at(picture, "step_voxels", -1) == 2 && at(picture, "termination", -1) == 0.9);
+    cJSON_Delete(json);
+}
+
 static void nothing_of_the_patient_is_in_the_json(void **state) {
     (void)state;
     expect(0, "info " PHANTOM " --json 2>/dev/null");
@@ -332,6 +363,7 @@ int main(void) {
         cmocka_unit_test(options_without_effect_are_said),
         cmocka_unit_test(no_gl_gives_five),
         cmocka_unit_test(info_and_render_describe_the_input),
+        cmocka_unit_test(the_json_says_what_picture_it_was),
         cmocka_unit_test(nothing_of_the_patient_is_in_the_json),
         cmocka_unit_test(pictures_of_the_same_scene_are_equal),
         cmocka_unit_test(frames_are_numbered),
