@@ -3,6 +3,7 @@
 #include "core/error/metrics.h"
 #include "io/image/image_io.h"
 #include "io/json.h"
+#include "io/replace.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -46,6 +47,10 @@ static void print_text(const ang_metrics *metrics) {
 
 static bool compare(const ang_options *options, ang_image *a, ang_image *b, ang_error *err) {
     static const double opaque_black[4] = {0, 0, 0, 1};
+    for (int i = 0; i < 2 && options->heat; i++)
+        if (ang_file_same(options->arguments[i], options->heat))
+            return ang_fail(err, ANG_USAGE, "--heat %s: is one of the pictures to compare; give it another name",
+                            options->heat);
     if (!ang_picture_read(options->arguments[0], a, err) || !ang_picture_read(options->arguments[1], b, err))
         return false;
     bool quantised = !is_float(options->arguments[0]) || !is_float(options->arguments[1]);

@@ -6,6 +6,7 @@
 #include "core/render/context.h"
 #include "io/image/annotate.h"
 #include "io/image/image_io.h"
+#include "io/preset.h"
 #include "io/replace.h"
 
 #include <math.h>
@@ -214,11 +215,30 @@ static bool time_frames(session *run, ang_error *err) {
     return done;
 }
 
+/* Outputs that would overwrite one another or what is read. */
+static bool check_outputs(const ang_options *options, ang_error *err) {
+    const char *json = options->json && strcmp(options->json, "-") != 0 ? options->json : NULL;
+    if (!ang_image_writable(options->output, err)) return false;
+    if (json && !ang_file_replaceable(json, err)) return false;
+    for (int frame = 0; frame < options->frames; frame++) {
+        char path[4096];
+        frame_path(options->output, frame, options->frames, path, sizeof path);
+        if (json && ang_file_same(path, json))
+            return ang_fail(err, ANG_USAGE, "--json %s: is the picture too (-o); give one of them another name", json);
+        if (ang_load_reads(options->arguments[0], path))
+            return ang_fail(err, ANG_USAGE, "-o %s: is read as input; give the picture another name", path);
+    }
+    bool preset =
+        json && options->preset && ang_preset_is_path(options->preset) && ang_file_same(options->preset, json);
+    if (json && (preset || ang_load_reads(options->arguments[0], json)))
+        return ang_fail(err, ANG_USAGE, "--json %s: is read as %s; give the output another name", json,
+                        preset ? "preset" : "input");
+    return true;
+}
+
 static bool run_all(session *run, ang_error *err) {
     const ang_options *options = run->options;
-    bool json_file = options->json && strcmp(options->json, "-") != 0;
-    if (!ang_image_writable(options->output, err)) return false;
-    if (json_file && !ang_file_replaceable(options->json, err)) return false;
+    if (!check_outputs(options, err)) return false;
     if (!ang_picture_start(options, &run->picture, err) || !load(run, err)) return false;
     ang_notes choices = {0};
     bool made = ang_picture_make(options, run->volume, &run->report, &run->picture, &choices, err);

@@ -16,6 +16,9 @@ ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, an
 
 /* Whether the options or a sidecar NAME.json describe the file as raw. */
 bool ang_raw_probe(const char *path, const ang_load_options *options);
+/* The sidecar's path: NAME.json, where NAME is the file with all, one or two of its endings. NULL where there is none.
+ * To be freed. */
+char *ang_raw_sidecar(const char *path);
 /* As ang_load, for voxels without a header, gzipped or not. The volume's x, y, z are the patient's left, posterior,
  * superior; its centre is the origin. */
 ang_volume *ang_raw_load(const char *path, const ang_load_options *options, ang_load_report *report,

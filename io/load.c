@@ -2,6 +2,7 @@
 
 #include "io/dicom/dicom.h"
 #include "io/formats.h"
+#include "io/replace.h"
 
 #include <errno.h>
 #include <math.h>
@@ -114,6 +115,27 @@ static ang_volume *dispatch(const char *path, const ang_load_options *options, a
                  "%s: is neither DICOM nor NIfTI-1; a raw volume needs --raw-dims and --raw-type or a sidecar %s.json",
                  label, label);
     return NULL;
+}
+
+/* Whether `path` lies in `folder` or below it. */
+static bool lies_in(const char *folder, const char *path) {
+    char *outer = realpath(folder, NULL), *inner = outer ? realpath(path, NULL) : NULL;
+    size_t length = outer ? strlen(outer) : 0;
+    bool inside = inner && strncmp(inner, outer, length) == 0 && inner[length] == '/';
+    free(outer);
+    free(inner);
+    return inside;
+}
+
+bool ang_load_reads(const char *input, const char *path) {
+    struct stat status;
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode)) return false;
+    if (ang_file_same(input, path)) return true;
+    if (stat(input, &status) == 0 && S_ISDIR(status.st_mode)) return lies_in(input, path) && ang_dicom_probe(path);
+    char *sidecar = ang_raw_sidecar(input);
+    bool same = sidecar && ang_file_same(sidecar, path);
+    free(sidecar);
+    return same;
 }
 
 ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load_report *report,

@@ -78,4 +78,8 @@ bool ang_load_report_hounsfield(const ang_load_report *report);
 ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load_report *report,
                      const ang_progress *progress, ang_error *err);
 
+/* Whether loading `input` reads the file `path`: it is the input, a raw input's sidecar or a DICOM file in the folder.
+ * To be asked before `path` is overwritten. */
+bool ang_load_reads(const char *input, const char *path);
+
 #endif

@@ -23,9 +23,11 @@ ang_preset *ang_preset_load(const char *path, ang_error *err);
 /* The same from text in memory; `file` labels errors and gives the default name. */
 ang_preset *ang_preset_parse(const char *file, const char *text, ang_error *err);
 
-/* `name_or_path` is a path where it has a '/' or is an existing file that ends in ".json"; else it is the name of
- * NAME.json in the first of `folders` (NULL-terminated, missing folders are passed over) that has it. An unknown name
- * gives ANG_USAGE with the nearest name and all of them. */
+/* Whether --preset means a file by this and not a name: it has a '/' or is an existing file that ends in ".json". */
+bool ang_preset_is_path(const char *name_or_path);
+/* `name_or_path` is a path where ang_preset_is_path says so; else it is the name of NAME.json in the first of `folders`
+ * (NULL-terminated, missing folders are passed over) that has it. An unknown name gives ANG_USAGE with the nearest name
+ * and all of them. */
 ang_preset *ang_preset_find(const char *name_or_path, const char *const *folders, ang_error *err);
 
 /* The presets of some folders, by name; of equal names the first folder's. */

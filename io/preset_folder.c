@@ -109,9 +109,12 @@ static void fail_unknown(const char *wanted, const ang_preset_names *names, ang_
         ang_fail(err, ANG_USAGE, "there is no preset \"%.100s\"; there are: %s", wanted, all);
 }
 
+bool ang_preset_is_path(const char *name_or_path) {
+    return strchr(name_or_path, '/') || (ends_in_json(name_or_path) && access(name_or_path, F_OK) == 0);
+}
+
 ang_preset *ang_preset_find(const char *name_or_path, const char *const *folders, ang_error *err) {
-    if (strchr(name_or_path, '/') || (ends_in_json(name_or_path) && access(name_or_path, F_OK) == 0))
-        return ang_preset_load(name_or_path, err);
+    if (ang_preset_is_path(name_or_path)) return ang_preset_load(name_or_path, err);
     char *wanted = strndup(name_or_path, strlen(name_or_path) - (ends_in_json(name_or_path) ? 5 : 0));
     ang_preset_names names;
     if (!wanted || !ang_preset_list(folders, &names, err)) {

@@ -57,8 +57,7 @@ static bool parse_type(const char *text, ang_sample *type) {
     return false;
 }
 
-/* The sidecar's path, or NULL: NAME.json, where NAME is the file with all, one or two of its endings. To be freed. */
-static char *find_sidecar(const char *path) {
+char *ang_raw_sidecar(const char *path) {
     size_t length = strlen(path), base = (size_t)(ang_base_name(path) - path);
     for (int cut = 0; cut < 3; cut++) {
         char *sidecar = NULL;
@@ -122,7 +121,7 @@ static bool read_sidecar(const char *path, raw_form *form, ang_error *err) {
 
 bool ang_raw_probe(const char *path, const ang_load_options *options) {
     if (options->raw_dims || options->raw_type) return true;
-    char *sidecar = find_sidecar(path);
+    char *sidecar = ang_raw_sidecar(path);
     free(sidecar);
     return sidecar != NULL;
 }
@@ -131,7 +130,7 @@ static bool find_form(const char *path, const ang_load_options *options, raw_for
                       ang_error *err) {
     *form = (raw_form){.spacing = {1, 1, 1}};
     if (!options->raw_dims) {
-        char *sidecar = find_sidecar(path);
+        char *sidecar = ang_raw_sidecar(path);
         bool ok = sidecar ? read_sidecar(sidecar, form, err)
                           : ang_fail(err, ANG_USAGE, "%s: a raw volume needs --raw-dims XxYxZ or a sidecar %s.json",
                                      ang_base_name(path), ang_base_name(path));

@@ -45,6 +45,27 @@ static bool write_all(int file, const unsigned char *data, size_t size) {
     return fsync(file) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
+/* The folder of `path`, in `folder` of PATH_MAX bytes: with its final slash, or ".". */
+static void folder_of(const char *path, char *folder) {
+    const char *slash = strrchr(path, '/');
+    snprintf(folder, PATH_MAX, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+}
+
+bool ang_file_same(const char *a, const char *b) {
+    struct stat left, right;
+    bool left_is = stat(a, &left) == 0, right_is = stat(b, &right) == 0;
+    if (left_is != right_is) return false;
+    if (!left_is) {
+        const char *left_slash = strrchr(a, '/'), *right_slash = strrchr(b, '/');
+        if (strcmp(left_slash ? left_slash + 1 : a, right_slash ? right_slash + 1 : b) != 0) return false;
+        char left_folder[PATH_MAX], right_folder[PATH_MAX];
+        folder_of(a, left_folder);
+        folder_of(b, right_folder);
+        if (stat(left_folder, &left) != 0 || stat(right_folder, &right) != 0) return false;
+    }
+    return left.st_dev == right.st_dev && left.st_ino == right.st_ino;
+}
+
 bool ang_file_replaceable(const char *path, ang_error *err) {
     struct stat status;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
@@ -52,8 +73,7 @@ bool ang_file_replaceable(const char *path, ang_error *err) {
                         S_ISDIR(status.st_mode) ? "a folder" : "not a regular file");
     }
     char folder[PATH_MAX];
-    const char *slash = strrchr(path, '/');
-    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+    folder_of(path, folder);
     return access(folder, W_OK | X_OK) == 0 || fail(path, errno, err);
 }
 

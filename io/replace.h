@@ -16,6 +16,10 @@ bool ang_file_replace(const char *path, const void *data, size_t size, ang_error
  * Thread safe. */
 bool ang_file_replaceable(const char *path, ang_error *err);
 
+/* Whether two paths, however spelt, name one file: by device and inode, or by folder and name where there is no file
+ * yet. Thread safe. */
+bool ang_file_same(const char *a, const char *b);
+
 /* Makes the folder `path` and its parents where they do not exist. False with ANG_OUTPUT. Thread safe. */
 bool ang_folder_make(const char *path, ang_error *err);
 

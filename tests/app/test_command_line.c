@@ -150,6 +150,37 @@ static void outputs_are_checked_before_the_work(void **state) {
     expect(7, "--help 2>/dev/null >/dev/full");
 }
 
+static void refused(const char *arguments, const char *needle) {
+    expect(2, arguments);
+    if (!strstr(output, needle)) fail_msg("angioscope %s: no '%s' in: %s", arguments, needle, output);
+}
+
+static void outputs_do_not_overwrite_what_is_read(void **state) {
+    (void)state;
+    (void)!system(
+        "rm -rf " TMP "/same; mkdir -p " TMP "/same/deep; cd " TMP "/same; cp -r " PHANTOM " study; ln -s study "
+        "link; head -c 8 /dev/zero > v.png; cp v.png old.png; ln old.png hard.json; echo '{\"dims\": \"2x2x2\", "
+        "\"type\": \"u8\"}' > v.json; cp " ANG_PRESETS "/ct-mip.json mine.json");
+    refused("render " PHANTOM " -o " TMP "/same/new.png --json " TMP "/same/deep/../new.png 2>&1", "--json ");
+    refused("render " PHANTOM " -o " TMP "/same/old.png --json " TMP "/same/hard.json 2>&1", "is the picture too");
+    refused("render " PHANTOM " -o " TMP "/same/new.png --frames 2 --orbit 9 --json " TMP "/same/new-0002.png 2>&1",
+            "is the picture too");
+    refused("render " TMP "/same/v.png -o " TMP "/same/deep/../v.png 2>&1", "is read as input");
+    refused("render " TMP "/same/v.png -o " TMP "/same/new.png --json " TMP "/same/v.json 2>&1", "is read as input");
+    refused("render " TMP "/same/link -o " TMP "/same/new.png --json " TMP "/same/study/IM0003.dcm 2>&1",
+            "is read as input");
+    refused("render " PHANTOM " -o " TMP "/same/new.png --preset " TMP "/same/mine.json --json " TMP
+            "/same/mine.json 2>&1",
+            "is read as preset");
+    refused("check " TMP "/same/old.png " TMP "/same/v.png --heat " TMP "/same/v.png 2>&1", "--heat");
+    assert_false(exists(TMP "/same/new.png"));
+    /* A picture beside the slices, and one that is there from the last time, are nobody's harm. */
+    expect(0, "render " TMP "/same/study -o " TMP "/same/study/new.png --size 16x16 --quiet --json " TMP
+              "/same/study/new.json");
+    expect(0, "render " TMP "/same/study -o " TMP "/same/study/new.png --size 16x16 --quiet --json " TMP
+              "/same/study/new.json");
+}
+
 static void an_empty_picture_is_said(void **state) {
     (void)state;
     expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --mode iso --iso 9999 2>&1");
@@ -358,6 +389,7 @@ int main(void) {
         cmocka_unit_test(missing_and_foreign_input_give_three),
         cmocka_unit_test(outputs_that_cannot_be_written_give_seven),
         cmocka_unit_test(outputs_are_checked_before_the_work),
+        cmocka_unit_test(outputs_do_not_overwrite_what_is_read),
         cmocka_unit_test(an_empty_picture_is_said),
         cmocka_unit_test(a_picture_of_one_grey_is_said),
         cmocka_unit_test(options_without_effect_are_said),
