@@ -120,13 +120,30 @@ static bool list_series(const ang_dicom_folder *folder, const ang_dicom_groups *
     return true;
 }
 
+/* A map that cannot be read makes the values wrong, wherever it is. */
+static void note_bad_rescale(const ang_dicom_slice *slices, const ang_dicom_group *group, ang_notes *warnings) {
+    int slopes = 0, intercepts = 0;
+    for (size_t i = 0; i < group->count; i++) {
+        slopes += slices[group->order[i]].bad_slope;
+        intercepts += slices[group->order[i]].bad_intercept;
+    }
+    if (slopes)
+        ang_notes_add(warnings, "(0028,1053) RescaleSlope is invalid in %d slice%s: 1 is taken", slopes,
+                      ang_plural(slopes));
+    if (intercepts)
+        ang_notes_add(warnings, "(0028,1052) RescaleIntercept is invalid in %d slice%s: 0 is taken", intercepts,
+                      ang_plural(intercepts));
+}
+
 /* Everything that the header says and that the values do not follow, or that it leaves open. */
 static void note_values(const ang_dicom_slice *first, ang_load_report *report) {
     ang_notes *assumptions = &report->assumptions, *warnings = &report->warnings;
     if (strcmp(first->modality, "CT") != 0)
         ang_notes_add(warnings, "modality is %s, not CT: values are not Hounsfield units",
                       first->modality[0] ? ang_dicom_modality(first->modality) : "not given");
-    if (!first->has_slope && !first->has_intercept)
+    if (first->bad_slope || first->bad_intercept) {
+        /* note_bad_rescale has said it */
+    } else if (!first->has_slope && !first->has_intercept)
         ang_notes_add(assumptions, "RescaleSlope and RescaleIntercept are missing: 1 and 0 are taken");
     else if (!first->has_slope || first->slope == 0)
         ang_notes_add(assumptions, "RescaleSlope is missing or 0: 1 is taken");
@@ -292,6 +309,7 @@ static ang_volume *load_folder(const ang_dicom_folder *folder, const char *path,
         if (group->phases > 1)
             ang_notes_add(&report->assumptions, "the series holds %d volumes at the same positions: one is shown",
                           group->phases);
+        note_bad_rescale(folder->slices, group, &report->warnings);
         note_values(first, report);
         volume = build(folder, group, options->threads, report, progress, err);
         if (volume) {

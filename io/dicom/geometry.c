@@ -62,7 +62,8 @@ void ang_dicom_sort(const ang_dicom_slice *slices, size_t *order, size_t count, 
     ang_dicom_slice first = ang_dicom_with_defaults(&slices[order[0]]);
     sorting sorting = {slices, ang_dicom_normal(&first), all_have_positions(slices, order, count)};
     if (!sorting.positions && assumptions && count > 1)
-        ang_notes_add(assumptions, "ImagePositionPatient is missing: slices are in the order of InstanceNumber");
+        ang_notes_add(assumptions,
+                      "ImagePositionPatient is missing or invalid: slices are in the order of InstanceNumber");
     qsort_r(order, count, sizeof *order, compare_slices, &sorting);
 }
 
@@ -183,7 +184,8 @@ static double nominal_distance(const ang_dicom_slice *slice, size_t count, ang_n
 
 static void note_header(const ang_dicom_slice *slice, ang_notes *warnings) {
     if (!slice->has_orientation)
-        ang_notes_add(warnings, "(0020,0037) ImageOrientationPatient is missing: axial slices are assumed");
+        ang_notes_add(warnings, "(0020,0037) ImageOrientationPatient is %s: axial slices are assumed",
+                      slice->bad_orientation ? "invalid" : "missing");
     if (!slice->has_spacing)
         ang_notes_add(warnings, "(0028,0030) PixelSpacing is %s: 1 mm is assumed, do not measure",
                       slice->bad_spacing ? "invalid" : "missing");
@@ -265,7 +267,8 @@ bool ang_dicom_geometry(const ang_dicom_slice *slices, const size_t *order, size
         double distance = nominal_distance(&first, count, assumptions);
         set_affine(grid, &first, ang_vec3_scale(normal, distance));
         if (!first.has_position)
-            ang_notes_add(warnings, "(0020,0032) ImagePositionPatient is missing: where the volume lies is unknown");
+            ang_notes_add(warnings, "(0020,0032) ImagePositionPatient is %s: where the volume lies is unknown",
+                          first.bad_position ? "invalid" : "missing");
     }
     if (!ok) ang_dicom_grid_clear(grid);
     return ok;

@@ -133,12 +133,14 @@ static void take_geometry(ang_dicom_reader *r, const ang_dicom_element *e, ang_d
         break;
     case TAG(0x0020, 0x0032):
         if ((s->has_position = ang_dicom_numbers(r, e, v, 3) == 3)) s->position = (ang_vec3){v[0], v[1], v[2]};
+        s->bad_position = !s->has_position && e->length > 0;
         break;
     case TAG(0x0020, 0x0037):
         if ((s->has_orientation = ang_dicom_numbers(r, e, v, 6) == 6)) {
             s->row = (ang_vec3){v[0], v[1], v[2]};
             s->column = (ang_vec3){v[3], v[4], v[5]};
         }
+        s->bad_orientation = !s->has_orientation && e->length > 0;
         break;
     case TAG(0x0028, 0x0030):
         s->has_spacing = ang_dicom_numbers(r, e, v, 2) == 2 && v[0] > 0 && v[1] > 0;
@@ -199,9 +201,11 @@ static void take_pixels(ang_dicom_reader *r, const ang_dicom_element *e, ang_dic
         break;
     case TAG(0x0028, 0x1052):
         s->has_intercept = ang_dicom_numbers(r, e, &s->intercept, 1) == 1;
+        s->bad_intercept = !s->has_intercept && e->length > 0;
         break;
     case TAG(0x0028, 0x1053):
         s->has_slope = ang_dicom_numbers(r, e, &s->slope, 1) == 1;
+        s->bad_slope = !s->has_slope && e->length > 0;
         break;
     case TAG(0x0028, 0x2110):
         s->lossy = ang_dicom_text(r, e, text, sizeof text) && strcmp(text, "01") == 0;

@@ -192,6 +192,43 @@ static int binary_numbers(ang_dicom_reader *reader, const ang_dicom_element *ele
     return n;
 }
 
+/* One value of a decimal string, up to its backslash or the end, where *text is left. strtod would follow the locale
+ * and take hexadecimal: the decimal strings of PS3.5 6.2 have neither. Nothing but blanks may follow the number: "1,5"
+ * is not 1. */
+static bool decimal(const char **text, double *out) {
+    const char *p = *text;
+    while (*p == ' ') p++;
+    bool negative = *p == '-';
+    if (*p == '-' || *p == '+') p++;
+    double value = 0, scale = 1;
+    int digits = 0, exponent = 0;
+    bool point = false;
+    for (; (*p >= '0' && *p <= '9') || (*p == '.' && !point); p++) {
+        if (*p == '.') {
+            point = true;
+            continue;
+        }
+        value = value * 10 + (*p - '0');
+        if (point) scale *= 10;
+        digits++;
+    }
+    if (digits && (*p == 'e' || *p == 'E')) {
+        bool below = p[1] == '-';
+        p += p[1] == '-' || p[1] == '+' ? 2 : 1;
+        if (*p < '0' || *p > '9') return false;
+        for (; *p >= '0' && *p <= '9'; p++) exponent = exponent < 10000 ? 10 * exponent + (*p - '0') : exponent;
+        if (below) exponent = -exponent;
+    }
+    while (*p == ' ') p++;
+    if (!digits || (*p && *p != '\\')) return false;
+    value /= scale;
+    if (exponent) value *= pow(10, exponent);
+    if (!isfinite(value)) return false;
+    *out = negative ? -value : value;
+    *text = p;
+    return true;
+}
+
 int ang_dicom_numbers(ang_dicom_reader *reader, const ang_dicom_element *element, double *out, int count) {
     if (element->vr[0]) {
         int n = binary_numbers(reader, element, out, count);
@@ -200,35 +237,10 @@ int ang_dicom_numbers(ang_dicom_reader *reader, const ang_dicom_element *element
     char text[512];
     if (!ang_dicom_text(reader, element, text, sizeof text)) return 0;
     int n = 0;
-    for (char *p = text; n < count;) {
-        /* strtod would follow the locale and take hexadecimal: the decimal strings of PS3.5 6.2 have neither. */
-        char *end = p;
-        while (*end && *end != '\\') end++;
-        char last = *end;
-        *end = 0;
-        while (*p == ' ') p++;
-        bool negative = *p == '-';
-        if (*p == '-' || *p == '+') p++;
-        double value = 0, scale = 1;
-        int digits = 0, exponent = 0;
-        bool point = false;
-        for (; (*p >= '0' && *p <= '9') || (*p == '.' && !point); p++) {
-            if (*p == '.') {
-                point = true;
-                continue;
-            }
-            value = value * 10 + (*p - '0');
-            if (point) scale *= 10;
-            digits++;
-        }
-        if (digits && (*p == 'e' || *p == 'E')) exponent = atoi(p + 1);
-        if (!digits) return n;
-        value /= scale;
-        if (exponent) value *= pow(10, exponent);
-        if (!isfinite(value)) return n;
-        out[n++] = negative ? -value : value;
-        if (!last) break;
-        p = end + 1;
+    for (const char *p = text; n < count; p++) {
+        if (!decimal(&p, &out[n])) break;
+        n++;
+        if (!*p) break;
     }
     return n;
 }

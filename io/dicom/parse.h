@@ -56,7 +56,8 @@ const uint8_t *ang_dicom_bytes(ang_dicom_reader *reader, uint64_t offset, size_t
 /* The value as a trimmed string; false where it is empty or too long for `size`. */
 bool ang_dicom_text(ang_dicom_reader *reader, const ang_dicom_element *element, char *out, size_t size);
 /* Numbers of a decimal or integer string, or of US, SS, UL, SL, FL, FD where the VR says so; returns how many (at most
- * `count`) there are. Not finite ones end the list. */
+ * `count`) there are. Not finite ones end the list, and those of a string with
+ * anything but blanks behind them. */
 int ang_dicom_numbers(ang_dicom_reader *reader, const ang_dicom_element *element, double *out, int count);
 /* The first 16-bit word of the value, read unsigned. */
 bool ang_dicom_word(ang_dicom_reader *reader, const ang_dicom_element *element, uint16_t *out);

@@ -248,10 +248,13 @@ static void judge(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_
     } else if (group->derived && (capture || !first->has_position)) {
         snprintf(group->remark, sizeof group->remark, "derived summary%s%s%s", kind[0] ? " (" : "",
                  kind[0] ? ang_dicom_image_kind(kind) : "", kind[0] ? ")" : "");
+    } else if (first->bad_position && has_larger_sibling(slices, groups, index)) {
+        snprintf(group->remark, sizeof group->remark, "(0020,0032) ImagePositionPatient is invalid");
     } else if (group->count == 1 && has_larger_sibling(slices, groups, index)) {
         snprintf(group->remark, sizeof group->remark, "localizer: a single slice that differs from its series");
     } else if (group->count == 1 && !first->has_position) {
-        snprintf(group->remark, sizeof group->remark, "single picture without a position");
+        snprintf(group->remark, sizeof group->remark, "single picture without a %sposition",
+                 first->bad_position ? "valid " : "");
     } else {
         group->loadable = true;
         if (group->phases > 1)

@@ -40,8 +40,9 @@ typedef struct ang_dicom_slice {
     bool is_signed, lossy;
 
     bool has_position, has_orientation, has_spacing, has_thickness, has_slice_distance, has_tilt;
-    bool bad_spacing;      /* PixelSpacing is there, but not two numbers > 0; has_spacing is false */
-    ang_vec3 position;     /* mm, LPS: centre of the first voxel */
+    bool bad_spacing; /* PixelSpacing is there, but not two numbers > 0; has_spacing is false */
+    bool bad_position, bad_orientation, bad_slope, bad_intercept; /* there, but no numbers; has_... is false */
+    ang_vec3 position;                                            /* mm, LPS: centre of the first voxel */
     ang_vec3 row, column;  /* direction of rising column index, of rising row index */
     double row_spacing;    /* mm between rows (dy): the first value of PixelSpacing */
     double column_spacing; /* mm between columns (dx): the second */

@@ -45,7 +45,7 @@ typedef struct form {
     double z;
     int instance;
     const char *slope, *intercept, *photometric, *spacing;
-    const char *orientation, *modality, *image_type, *sop_class, *character_set, *description;
+    const char *position, *orientation, *modality, *image_type, *sop_class, *character_set, *description;
     bool no_rows, is_signed, has_padding, cut, no_position, no_orientation;
     bool damaged; /* the header is sound, the (compressed) pixels are not */
     bool no_image;
@@ -76,7 +76,7 @@ static inline void small(const char *name, const form *form) {
     snprintf(text, sizeof text, "%d", form->instance);
     put_text(&f, 0x20, 0x13, "IS", text);
     snprintf(text, sizeof text, "-1\\-2\\%g", form->z);
-    if (!form->no_position) put_text(&f, 0x20, 0x32, "DS", text);
+    if (!form->no_position) put_text(&f, 0x20, 0x32, "DS", form->position ? form->position : text);
     if (!form->no_orientation)
         put_text(&f, 0x20, 0x37, "DS", form->orientation ? form->orientation : "1\\0\\0\\0\\1\\0");
     if (form->no_image) {

@@ -268,6 +268,64 @@ static void test_invalid_spacing(void **state) {
     ang_load_report_clear(&report);
 }
 
+static bool warned(const ang_load_report *report, const char *needle) {
+    for (size_t i = 0; i < report->warnings.count; i++)
+        if (strstr(report->warnings.text[i], needle)) return true;
+    return false;
+}
+
+/* "1,5" is no decimal string: its first digits are no value. */
+static void test_numbers_with_junk_behind_them(void **state) {
+    (void)state;
+    static const struct {
+        form form;
+        const char *needle; /* NULL: sound */
+    } cases[] = {{{.spacing = "1,5\\1,5"}, "(0028,0030) PixelSpacing is invalid"},
+                 {{.spacing = "1.5mm\\1.5"}, "(0028,0030) PixelSpacing is invalid"},
+                 {{.position = "0,5\\0\\0,5"}, "(0020,0032) ImagePositionPatient is invalid"},
+                 {{.orientation = "1\\0\\0\\0\\1\\0x"}, "(0020,0037) ImageOrientationPatient is invalid"},
+                 {{.intercept = "-1024 HU"}, "(0028,1052) RescaleIntercept is invalid in 2 slices: 0 is taken"},
+                 {{.slope = "1e"}, "(0028,1053) RescaleSlope is invalid in 2 slices: 1 is taken"},
+                 {{.slope = "0x1"}, "(0028,1053) RescaleSlope is invalid"},
+                 {{.spacing = " 5.0e-1 \\+.25", .slope = "10E-1 ", .intercept = " -1024. "}, NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        fresh_folder(FOLDER);
+        for (int z = 0; z < 2; z++) {
+            form f = cases[i].form;
+            f.instance = z;
+            f.z = z;
+            small(z ? "b" : "a", &f);
+        }
+        ang_load_report report;
+        ang_volume *v = load(FOLDER, &report);
+        bool as_wanted = cases[i].needle ? warned(&report, cases[i].needle) : report.warnings.count == 0;
+        if (!as_wanted) fail_msg("case %zu: no %s", i, cases[i].needle ? cases[i].needle : "silence");
+        if (!cases[i].needle) {
+            assert_float_equal(v->affine.m[0][0], 0.25, 1e-12);
+            assert_float_equal(v->affine.m[1][1], 0.5, 1e-12);
+            assert_float_equal(v->slope, 1, 0);
+            assert_float_equal(hu_at(v, 0, 0, 0), -1024, 1e-12);
+        }
+        ang_volume_free(v);
+        ang_load_report_clear(&report);
+    }
+    fresh_folder(FOLDER); /* one of a series: left out, said and interpolated */
+    for (int i = 0; i < 5; i++) {
+        form f = form_at(i, 1000 + 100 * i);
+        if (i == 2) f.position = "0\\0\\2,0";
+        char name[8];
+        snprintf(name, sizeof name, "%d", i);
+        small(name, &f);
+    }
+    ang_load_report report;
+    ang_volume *v = load(FOLDER, &report);
+    assert_int_equal(report.slices_missing, 1);
+    assert_int_equal(report.series_count, 2);
+    assert_string_equal(report.series[1].remark, "(0020,0032) ImagePositionPatient is invalid");
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
 static bool stop_at_once(void *context, const char *what, double fraction) {
     (void)what, (void)fraction;
     atomic_fetch_add((atomic_int *)context, 1);
@@ -487,6 +545,7 @@ int main(void) {
         cmocka_unit_test(test_damaged_double_is_left_out),
         cmocka_unit_test(test_doubles_without_orientation_or_position),
         cmocka_unit_test(test_invalid_spacing),
+        cmocka_unit_test(test_numbers_with_junk_behind_them),
         cmocka_unit_test(test_interrupt),
         cmocka_unit_test(test_raw),
         cmocka_unit_test(test_options_for_other_formats),
