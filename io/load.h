@@ -57,6 +57,8 @@ typedef struct ang_load_report {
     double tilt_deg;         /* gantry tilt from the positions, 0 where none */
     double tilt_nominal_deg; /* tag (0018,1120), NaN where absent */
     bool signed_stored;      /* stored values were signed: 32768 was added */
+    double slope, intercept; /* HU = slope * stored + intercept of stored values as the file has them, before 32768 was
+                                added; NaN where slices differ or nothing was loaded */
     int bits_stored;
     bool padding_declared, padding_found; /* padding value from the tag; or from the corners */
     double padding_hu;                    /* HU of the padding before it was replaced */

@@ -104,20 +104,18 @@ static void print_geometry(FILE *out, const ang_volume *volume, const ang_load_r
     print_slices(out, volume, report);
 }
 
-/* The intercept for stored values as they are in the file: the volume holds signed ones with 32768 added. */
-static double file_intercept(const ang_volume *volume, const ang_load_report *report) {
-    return volume->intercept + (report->signed_stored ? 32768 * volume->slope : 0);
-}
-
 static void print_values(FILE *out, const ang_volume *volume, const ang_load_report *report) {
     bool hounsfield = ang_load_report_hounsfield(report);
     const char *unit = hounsfield ? " HU" : "";
     fprintf(out, "Values\n");
     fprintf(out, "  range        %g to %g%s%s\n", ang_volume_hu(volume, volume->minimum),
             ang_volume_hu(volume, volume->maximum), unit, report->resampled ? ", after resampling" : "");
-    double intercept = file_intercept(volume, report);
-    fprintf(out, "  %-12s = %.10g x stored %c %.10g; stored in %d bits, %s\n", hounsfield ? "HU" : "value",
-            volume->slope, intercept < 0 ? '-' : '+', fabs(intercept), report->bits_stored,
+    /* Of the values that the file holds where one map does for all, else of the volume's own. */
+    bool common = isfinite(report->slope);
+    double slope = common ? report->slope : volume->slope, intercept = common ? report->intercept : volume->intercept;
+    fprintf(out, "  %-12s = %.10g x %s %c %.10g%s; stored in %d bits, %s\n", hounsfield ? "HU" : "value", slope,
+            common ? "stored" : "the volume's value", intercept < 0 ? '-' : '+', fabs(intercept),
+            common ? "" : ", as slices have different rescale", report->bits_stored,
             report->signed_stored ? "signed" : "unsigned");
     if (volume->padding_count > 0)
         fprintf(out, "  padding      %g%s (%s), %.1f %% of the voxels, shown as -1000%s\n", report->padding_hu, unit,
@@ -195,8 +193,11 @@ static void add_geometry(cJSON *input, const ang_volume *volume, const ang_load_
     for (int r = 0; r < 4; r++) cJSON_AddItemToArray(rows, cJSON_CreateDoubleArray(volume->affine.m[r], 4));
     double range[2] = {ang_volume_hu(volume, volume->minimum), ang_volume_hu(volume, volume->maximum)};
     add_numbers(input, "hu_range", range, 2);
-    cJSON_AddNumberToObject(input, "slope", volume->slope);
-    cJSON_AddNumberToObject(input, "intercept", file_intercept(volume, report));
+    ang_json_add_number(input, "slope", report->slope);
+    ang_json_add_number(input, "intercept", report->intercept);
+    cJSON *map = cJSON_AddObjectToObject(input, "volume_map");
+    ang_json_add_number(map, "slope", volume->slope);
+    ang_json_add_number(map, "intercept", volume->intercept);
     cJSON_AddNumberToObject(input, "stored_crc32", report->stored_crc32);
     cJSON *padding = cJSON_AddObjectToObject(input, "padding");
     bool any = volume->padding_count > 0;

@@ -172,6 +172,9 @@ static bool fill(reading *reading, ang_volume *volume, ang_load_report *report, 
     volume->slope = source->slope * q.step;
     volume->intercept = source->slope * q.low + source->intercept;
 
+    report->slope = volume->slope;
+    report->intercept = volume->intercept + (report->signed_stored ? 32768 * volume->slope : 0);
+
     size_t words = reading->count;
     report->stored_crc32 = ang_checksum(0, volume->data, words * sizeof *volume->data);
     if (volume->slope < 0) {

@@ -170,6 +170,18 @@ static bool pass_over(const ang_dicom_stack *stack, remap_job *job, ang_error *e
     return true;
 }
 
+/* The map of the file, where all slices have the same. */
+static void report_map(const ang_dicom_stack *stack, const ang_dicom_map *maps, ang_load_report *report) {
+    bool is_signed = stack->slices[stack->order[0]].is_signed;
+    report->slope = report->intercept = NAN;
+    for (size_t i = 1; i < stack->count; i++)
+        if (maps[i].slope != maps[0].slope || maps[i].intercept != maps[0].intercept ||
+            stack->slices[stack->order[i]].is_signed != is_signed)
+            return;
+    report->slope = maps[0].slope;
+    report->intercept = maps[0].intercept + (is_signed ? 32768 * maps[0].slope : 0);
+}
+
 /* Declared padding and rescale, then padding that nobody declared. */
 static bool finish_values(const ang_dicom_stack *stack, ang_volume *volume, const decoded *decoded,
                           ang_load_report *report, ang_error *err) {
@@ -191,6 +203,7 @@ static bool finish_values(const ang_dicom_stack *stack, ang_volume *volume, cons
         declared += decoded[i].padding_count;
     }
     if (ok) {
+        report_map(stack, maps, report);
         ang_dicom_common common = ang_dicom_merge(maps, least, greatest, count);
         volume->slope = common.map.slope;
         volume->intercept = common.map.intercept;
