@@ -247,6 +247,23 @@ static bool stack_slices(const ang_dicom_slice *slices, const size_t *order, siz
     return true;
 }
 
+/* Without positions InstanceNumber alone may order slices (rule 2): each must have its own. */
+static bool check_instances(const ang_dicom_slice *slices, const size_t *order, size_t count, ang_error *err) {
+    for (size_t i = 0; i < count; i++) {
+        const ang_dicom_slice *slice = &slices[order[i]];
+        if (!slice->has_instance_number)
+            return ang_fail(err, ANG_GEOMETRY,
+                            "(0020,0032) ImagePositionPatient and (0020,0013) InstanceNumber are missing: nothing says "
+                            "how the slices follow one another");
+        if (i > 0 && slice->instance_number == slices[order[i - 1]].instance_number)
+            return ang_fail(err, ANG_GEOMETRY,
+                            "(0020,0032) ImagePositionPatient is missing and (0020,0013) InstanceNumber %d is there "
+                            "twice: nothing says how the slices follow one another",
+                            slice->instance_number);
+    }
+    return true;
+}
+
 bool ang_dicom_geometry(const ang_dicom_slice *slices, const size_t *order, size_t count, ang_dicom_grid *grid,
                         ang_notes *assumptions, ang_notes *warnings, ang_error *err) {
     *grid = (ang_dicom_grid){0};
@@ -263,7 +280,7 @@ bool ang_dicom_geometry(const ang_dicom_slice *slices, const size_t *order, size
         free(s);
     } else {
         if (!first.has_position) first.position = (ang_vec3){0, 0, 0};
-        ok = fill_missing(grid, count, err);
+        ok = (count == 1 || check_instances(slices, order, count, err)) && fill_missing(grid, count, err);
         double distance = nominal_distance(&first, count, assumptions);
         set_affine(grid, &first, ang_vec3_scale(normal, distance));
         if (!first.has_position)

@@ -156,6 +156,28 @@ static void test_irregular_is_resampled(void **state) {
     clear_grid(&c);
 }
 
+static void test_slices_without_order_are_refused(void **state) {
+    (void)state;
+    for (int what = 0; what < 3; what++) { /* InstanceNumber: one each, one missing, one twice */
+        grid_case c = {.count = 5};
+        for (int i = 0; i < 5; i++) {
+            c.slices[i] = slice_at(i, 9 - i);
+            c.slices[i].has_position = false;
+        }
+        if (what == 1) c.slices[2].has_instance_number = false;
+        if (what == 2) c.slices[2].instance_number = c.slices[3].instance_number;
+        make_grid(&c);
+        assert_int_equal(c.ok, what == 0);
+        if (what == 0) {
+            for (size_t i = 0; i < 5; i++) assert_int_equal(c.order[i], 4 - i);
+        } else {
+            assert_int_equal(c.err.code, ANG_GEOMETRY);
+            assert_non_null(strstr(c.err.message, "(0020,0013) InstanceNumber"));
+        }
+        clear_grid(&c);
+    }
+}
+
 static void test_tilt_is_shear(void **state) {
     (void)state;
     double angle = 18.5 * acos(-1) / 180;
@@ -412,6 +434,7 @@ int main(void) {
         cmocka_unit_test(test_missing_slices),
         cmocka_unit_test(test_small_deviations_are_regular),
         cmocka_unit_test(test_irregular_is_resampled),
+        cmocka_unit_test(test_slices_without_order_are_refused),
         cmocka_unit_test(test_tilt_is_shear),
         cmocka_unit_test(test_degenerate_orientation),
         cmocka_unit_test(test_absurd_distances),
