@@ -309,6 +309,13 @@ static ang_volume *load_folder(const ang_dicom_folder *folder, const char *path,
         if (group->phases > 1)
             ang_notes_add(&report->assumptions, "the series holds %d volumes at the same positions: one is shown",
                           group->phases);
+        if (group->acquisitions > 1)
+            ang_notes_add(&report->assumptions,
+                          "the series holds %d acquisitions that do not continue one another: one is shown",
+                          group->acquisitions);
+        if (group->stacks > 1)
+            ang_notes_add(&report->assumptions, "the series holds %d stacks of slices far apart: one is shown",
+                          group->stacks);
         note_bad_rescale(folder->slices, group, &report->warnings);
         note_values(first, report);
         volume = build(folder, group, options->threads, report, progress, err);

@@ -2,14 +2,13 @@
 
 #include "core/base/memory.h"
 #include "io/dicom/geometry.h"
+#include "io/dicom/parts.h"
 #include "io/dicom/terms.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { phase_keys = 5 };
 
 static const double same_position_mm = 1e-3, same_cosine = 1e-4;
 
@@ -61,49 +60,17 @@ static ang_dicom_group *add_group(ang_dicom_groups *groups, size_t *order, size_
     return &grown[groups->count++];
 }
 
-/* The values that tell the volumes of one series apart, best first; false where a slice has none of this kind. */
-static bool phase_key(const ang_dicom_slice *slice, int kind, char *out, size_t size) {
-    switch (kind) {
-    case 0:
-        snprintf(out, size, "%s", slice->image_type);
-        return out[0] != 0;
-    case 1:
-        snprintf(out, size, "%d", slice->temporal_position);
-        return slice->has_temporal_position;
-    case 2:
-        snprintf(out, size, "%d", slice->acquisition_number);
-        return slice->has_acquisition_number;
-    case 3:
-        snprintf(out, size, "%s", slice->acquisition_time);
-        return out[0] != 0;
-    default:
-        snprintf(out, size, "%s", slice->content_time);
-        return out[0] != 0;
-    }
-}
-
 /* Numbers every slice of the sorted group by its volume, by a key that has exactly `phases` values and none twice at a
- * position; false where `kind` is no such key. */
+ * position; false where `key` is no such key. */
 static bool phases_by_key(const ang_dicom_slice *slices, const ang_dicom_group *group, const size_t *place, int phases,
-                          int kind, int *phase) {
-    char known[64][129];
-    int count = 0;
-    if (phases > 64) return false;
+                          ang_dicom_key key, int *phase) {
+    if (ang_dicom_parts_by_key(slices, group->order, group->count, key, phase) != phases) return false;
     for (size_t i = 0; i < group->count; i++) {
-        char key[129];
-        if (!phase_key(&slices[group->order[i]], kind, key, sizeof key)) return false;
-        int k = 0;
-        while (k < count && strcmp(known[k], key) != 0) k++;
-        if (k == count) {
-            if (count == phases) return false;
-            memcpy(known[count++], key, sizeof key);
-        }
-        phase[i] = k;
         for (size_t j = i; j-- > 0 && place[j] == place[i];) {
-            if (phase[j] == k) return false;
+            if (phase[j] == phase[i]) return false;
         }
     }
-    return count == phases;
+    return true;
 }
 
 /* The n-th slice at a position, in order of instance number, belongs to the n-th volume. */
@@ -169,6 +136,27 @@ static bool drop_duplicates(const ang_dicom_slice *slices, ang_dicom_group *grou
     return true;
 }
 
+/* Splits group `index` into the slices that have number 0 in `part`, which stay, and those of each other number, which
+ * become new groups that are like it. */
+static bool split_group(ang_dicom_groups *groups, size_t index, const int *part, int parts, ang_error *err) {
+    ang_dicom_group whole = groups->group[index];
+    for (int p = 0; p < parts; p++) {
+        size_t *order = ang_alloc(whole.count, sizeof *order, "volumes of a series", err), n = 0;
+        if (!order) return false;
+        for (size_t i = 0; i < whole.count; i++) {
+            if (part[i] == p) order[n++] = whole.order[i];
+        }
+        ang_dicom_group *made = p == 0 ? &groups->group[index] : add_group(groups, order, n, err);
+        if (!made) return false;
+        ang_dicom_group like = whole;
+        like.order = order;
+        like.count = n;
+        if (p > 0) like.duplicates = 0;
+        *made = like;
+    }
+    return true;
+}
+
 /* Sorts group `index`, drops its duplicates and splits it where positions repeat with other pixels (rule 6). */
 static bool resolve_positions(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_t index,
                               ang_dicom_compare *compare, void *context, ang_error *err) {
@@ -185,33 +173,43 @@ static bool resolve_positions(const ang_dicom_slice *slices, ang_dicom_groups *g
     bool ok = phase && drop_duplicates(slices, group, normal, compare, context, place, &phases, err);
     /* One InstanceNumber twice, without positions, does not tell where a second volume would lie. */
     if (ok && phases > 1 && first.has_position) {
-        int kind = 0;
-        while (kind < phase_keys && !phases_by_key(slices, group, place, phases, kind, phase)) kind++;
-        if (kind == phase_keys) phases_by_rank(place, group->count, phase);
-        size_t *old = group->order, old_count = group->count;
-        for (int p = 0; ok && p < phases; p++) {
-            size_t *order = ang_alloc(old_count, sizeof *order, "phases", err), n = 0;
-            if (!order) {
-                ok = false;
-                break;
-            }
-            for (size_t i = 0; i < old_count; i++) {
-                if (phase[i] == p) order[n++] = old[i];
-            }
-            ang_dicom_group *part = &groups->group[index];
-            if (p == 0) {
-                part->order = order;
-                part->count = n;
-            } else {
-                part = add_group(groups, order, n, err);
-            }
-            if (part) part->phases = phases;
-            ok = part != NULL;
-        }
+        ang_dicom_key key = 0;
+        while (key < ANG_DICOM_KEYS && !phases_by_key(slices, group, place, phases, key, phase)) key++;
+        if (key == ANG_DICOM_KEYS) phases_by_rank(place, group->count, phase);
+        group->phases = phases;
+        size_t *old = group->order;
+        ok = split_group(groups, index, phase, phases, err);
         if (groups->group[index].order != old) free(old);
     }
     free(place);
     free(phase);
+    return ok;
+}
+
+/* Splits group `index` where its slices, all at places of their own, are no one volume (rule 1). `split` says whether
+ * there was anything to split. */
+static bool part_volumes(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_t index, bool *split,
+                         ang_error *err) {
+    ang_dicom_group *group = &groups->group[index];
+    const ang_dicom_slice first = ang_dicom_with_defaults(&slices[group->order[0]]);
+    ang_vec3 normal = ang_dicom_normal(&first);
+    *split = false;
+    if (!first.image || first.refusal[0] || !first.has_position || ang_vec3_length(normal) == 0) return true;
+    int *part = ang_alloc(group->count, sizeof *part, "volumes of a series", err), parts;
+    double *scratch = part ? ang_alloc(group->count, sizeof *scratch, "volumes of a series", err) : NULL;
+    bool ok = scratch != NULL;
+    ang_dicom_parting why =
+        ok ? ang_dicom_part_volumes(slices, group->order, group->count, normal, part, &parts, scratch)
+           : ANG_DICOM_ONE_VOLUME;
+    if (why != ANG_DICOM_ONE_VOLUME) {
+        *(why == ANG_DICOM_ACQUISITIONS ? &group->acquisitions : &group->stacks) = parts;
+        size_t *old = group->order;
+        ok = split_group(groups, index, part, parts, err);
+        if (groups->group[index].order != old) free(old);
+        *split = true;
+    }
+    free(part);
+    free(scratch);
     return ok;
 }
 
@@ -250,6 +248,10 @@ static void judge(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_
                  kind[0] ? ang_dicom_image_kind(kind) : "", kind[0] ? ")" : "");
     } else if (first->bad_position && has_larger_sibling(slices, groups, index)) {
         snprintf(group->remark, sizeof group->remark, "(0020,0032) ImagePositionPatient is invalid");
+    } else if (group->count == 1 && group->phases > 1 && has_larger_sibling(slices, groups, index)) {
+        snprintf(group->remark, sizeof group->remark, "another slice at the same position as one of its series");
+    } else if (group->count == 1 && group->stacks > 1 && has_larger_sibling(slices, groups, index)) {
+        snprintf(group->remark, sizeof group->remark, "a single slice far from the others of its series");
     } else if (group->count == 1 && has_larger_sibling(slices, groups, index)) {
         snprintf(group->remark, sizeof group->remark, "localizer: a single slice that differs from its series");
     } else if (group->count == 1 && !first->has_position) {
@@ -259,6 +261,10 @@ static void judge(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_
         group->loadable = true;
         if (group->phases > 1)
             snprintf(group->remark, sizeof group->remark, "one of %d volumes at the same positions", group->phases);
+        else if (group->acquisitions > 1)
+            snprintf(group->remark, sizeof group->remark, "one of %d acquisitions in its series", group->acquisitions);
+        else if (group->stacks > 1)
+            snprintf(group->remark, sizeof group->remark, "one of %d stacks far apart in its series", group->stacks);
         else if (group->count == 1)
             snprintf(group->remark, sizeof group->remark, "single slice");
         else if (group->derived)
@@ -345,6 +351,11 @@ bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dic
     free(order);
     size_t before = groups->count;
     for (size_t i = 0; ok && i < before; i++) ok = resolve_positions(slices, groups, i, compare, context, err);
+    for (size_t i = 0; ok && i < groups->count;) {
+        bool split;
+        ok = part_volumes(slices, groups, i, &split, err);
+        if (!split) i++;
+    }
     ok = ok && list_groups(slices, groups, err);
     for (size_t i = 0; ok && i < groups->count; i++) judge(slices, groups, i);
     if (!ok) ang_dicom_groups_clear(groups);

@@ -11,8 +11,10 @@
 typedef struct ang_dicom_group {
     size_t *order; /* indices into the slices, sorted by position; duplicates and unreadable doubles left out */
     size_t count;
-    int duplicates; /* dropped: same position (same InstanceNumber where positions are missing), same pixels */
-    int phases;     /* > 1: one of several volumes at the same positions */
+    int duplicates;   /* dropped: same position (same InstanceNumber where positions are missing), same pixels */
+    int phases;       /* > 1: one of several volumes at the same positions */
+    int acquisitions; /* > 1: one of several acquisitions in its series that do not continue one another */
+    int stacks;       /* > 1: one of several stacks with more slices missing between them than there are */
     bool loadable;
     bool derived;     /* ImageType DERIVED\SECONDARY or a secondary capture: loaded only where nothing else is */
     char remark[128]; /* why it is not loadable, or what it is */

@@ -221,6 +221,111 @@ static void test_doubles_without_positions(void **state) {
     ang_dicom_groups_clear(&groups);
 }
 
+/* `count` slices from `z` mm on, `step` apart, of one acquisition. */
+static size_t add_stack(ang_dicom_slice *s, size_t n, int count, double z, double step, int acquisition) {
+    for (int i = 0; i < count; i++, n++) {
+        s[n] = slice_at(z + step * i, (int)n);
+        s[n].has_acquisition_number = true;
+        s[n].acquisition_number = acquisition;
+        snprintf(s[n].acquisition_time, sizeof s[n].acquisition_time, "10%02d00", acquisition % 60);
+        s[n].file = n;
+    }
+    return n;
+}
+
+static ang_dicom_groups grouped(const ang_dicom_slice *s, size_t count) {
+    ang_dicom_groups groups;
+    ang_error err = {0};
+    assert_true(ang_dicom_group_slices(s, count, NULL, NULL, &groups, &err));
+    return groups;
+}
+
+static void expect_volumes(const ang_dicom_slice *s, size_t n, size_t first, size_t second, const char *remark) {
+    ang_dicom_groups groups = grouped(s, n);
+    assert_int_equal(groups.count, second ? 2 : 1);
+    assert_int_equal(groups.group[0].count, first);
+    if (second) {
+        assert_int_equal(groups.group[1].count, second);
+        assert_string_equal(groups.group[1].remark, remark);
+        for (size_t i = 1; i < second; i++)
+            assert_true(s[groups.group[1].order[i]].position.z > s[groups.group[1].order[i - 1]].position.z);
+    }
+    ang_dicom_groups_clear(&groups);
+}
+
+static void test_acquisitions_are_told_apart(void **state) {
+    (void)state;
+    static const char remark[] = "one of 2 acquisitions in its series";
+    ang_dicom_slice s[64];
+    size_t n = add_stack(s, 0, 10, 0, 1, 1); /* interleaved */
+    n = add_stack(s, n, 10, 0.5, 1, 2);
+    expect_volumes(s, n, 10, 10, remark);
+    for (size_t i = 0; i < n; i++) strcpy(s[i].modality, "MR"); /* even slices after odd ones: one volume */
+    expect_volumes(s, n, 20, 0, NULL);
+    n = add_stack(s, 0, 10, 0, 1, 1); /* overlapping */
+    n = add_stack(s, n, 9, 5.3, 1, 2);
+    expect_volumes(s, n, 10, 9, remark);
+    for (size_t i = 0; i < n; i++) s[i].has_acquisition_number = false; /* told by time alone */
+    expect_volumes(s, n, 10, 9, remark);
+    n = add_stack(s, 0, 10, 0, 1, 1); /* far apart, or with another spacing */
+    n = add_stack(s, n, 9, 309, 1, 2);
+    expect_volumes(s, n, 10, 9, remark);
+    n = add_stack(s, 0, 10, 0, 1, 1);
+    n = add_stack(s, n, 9, 10, 3, 2);
+    expect_volumes(s, n, 10, 9, remark);
+}
+
+static void test_slabs_of_one_scan_stay_together(void **state) {
+    (void)state;
+    ang_dicom_slice s[64];
+    size_t n = 0;
+    for (int k = 0; k < 6; k++) n = add_stack(s, n, 4, 4 * k, 1, k + 1); /* step and shoot */
+    expect_volumes(s, n, 24, 0, NULL);
+    memmove(s + 4, s + 5, (n - 5) * sizeof *s); /* a slab has lost its first slice */
+    expect_volumes(s, n - 1, 23, 0, NULL);
+    n = 0;
+    for (int k = 0; k < 20; k++) n = add_stack(s, n, 1, k < 10 ? k : 1.7 * k, 1, k + 1); /* a number for every slice */
+    expect_volumes(s, n, 20, 0, NULL);
+    n = add_stack(s, 0, 20, 0, 1, 1);
+    for (size_t i = 0; i < n; i++) { /* written as they got ready, by two machines */
+        s[i].has_acquisition_number = false;
+        s[i].acquisition_time[0] = 0;
+        snprintf(s[i].content_time, sizeof s[i].content_time, "1000%02d", (int)(i % 2));
+    }
+    expect_volumes(s, n, 20, 0, NULL);
+}
+
+static void test_far_stacks_are_split(void **state) {
+    (void)state;
+    ang_dicom_slice s[64];
+    size_t n = add_stack(s, 0, 10, 0, 1, 1); /* 29 missing between 19 slices: nothing else tells them apart */
+    n = add_stack(s, n, 9, 39, 1, 1);
+    expect_volumes(s, n, 10, 9, "one of 2 stacks far apart in its series");
+    n = add_stack(s, 0, 10, 0, 1, 1); /* 9 missing */
+    n = add_stack(s, n, 9, 19, 1, 1);
+    expect_volumes(s, n, 19, 0, NULL);
+    n = add_stack(s, 0, 10, 0, 1, 1);
+    n = add_stack(s, n, 1, 90, 1, 1);
+    expect_volumes(s, n, 10, 1, "a single slice far from the others of its series");
+}
+
+static void test_a_slice_sent_again(void **state) {
+    (void)state;
+    ang_dicom_slice s[8];
+    for (int i = 0; i < 6; i++) { /* the last at the place of the third, with other pixels */
+        s[i] = slice_at(i < 5 ? i : 2, i);
+        s[i].thickness = i;
+        s[i].file = (size_t)i;
+    }
+    ang_dicom_groups groups;
+    ang_error err = {0};
+    assert_true(ang_dicom_group_slices(s, 6, same_by_tag, s, &groups, &err));
+    assert_int_equal(groups.count, 2);
+    assert_string_equal(groups.group[1].remark, "another slice at the same position as one of its series");
+    assert_false(groups.group[1].loadable);
+    ang_dicom_groups_clear(&groups);
+}
+
 static void test_terms(void **state) {
     (void)state;
     assert_string_equal(ang_dicom_modality("CT"), "CT");
@@ -246,6 +351,10 @@ int main(void) {
         cmocka_unit_test(test_unreadable_doubles),
         cmocka_unit_test(test_phases_without_orientation),
         cmocka_unit_test(test_doubles_without_positions),
+        cmocka_unit_test(test_acquisitions_are_told_apart),
+        cmocka_unit_test(test_slabs_of_one_scan_stay_together),
+        cmocka_unit_test(test_far_stacks_are_split),
+        cmocka_unit_test(test_a_slice_sent_again),
         cmocka_unit_test(test_terms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
