@@ -123,7 +123,8 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     picture->render.show_bricks = options->show_bricks;
     picture->render.proxy = (ang_proxy)ang_proxy_from_name(options->proxy);
     if (isfinite(options->gpu_memory)) picture->render.gpu_memory = (size_t)(options->gpu_memory * 1e6);
-    if (options->bricks && !ang_app_parse_dims("bricks", options->bricks, 3, picture->render.bricks, err)) return false;
+    if (options->bricks && !ang_app_parse_dims("bricks", options->bricks, 3, 65536, picture->render.bricks, err))
+        return false;
     return true;
 }
 
