@@ -21,12 +21,14 @@ enum { UNIT_ACCUMULATED = ANG_UNIT_FREE };
 static const double most_reach = 1 << 20;
 
 /* What a polygon costs in fragments, without and with shading: measured on llvmpipe (docs/papers.md). */
-static const double polygon_cost = 500, polygon_cost_shaded = 150;
+static const double polygon_cost = 200, polygon_cost_shaded = 120;
 /* Work is handed to OpenGL in pieces of about this many fragments, so that it can be interrupted... */
 static const double piece_samples = 8e6;
 /* ... and pixels that are finished are looked for about this often in a picture, but not for less than this many
  * fragments a pixel: a look costs about four. */
 static const double finish_looks = 12, finish_least = 8;
+/* A look that finds less than this share of the picture was not worth it. */
+static const double finish_share = 0.02;
 
 struct ang_renderer {
     ang_gl *gl;
@@ -39,6 +41,7 @@ struct ang_renderer {
     ang_slice_boxes boxes;
     ang_octree *octree;
     GLuint vertices; /* no attributes, but a draw needs one bound */
+    GLuint query;    /* counts finished pixels */
     char note[512];  /* what the user should know */
 };
 
@@ -59,6 +62,7 @@ typedef struct slicing {
 static void destroy(ang_renderer *renderer) {
     if (!renderer) return;
     if (renderer->vertices) glDeleteVertexArrays(1, &renderer->vertices);
+    if (renderer->query) glDeleteQueries(1, &renderer->query);
     ang_target_destroy(&renderer->accumulated);
     ang_target_destroy(&renderer->resolved);
     ang_programs_clear(&renderer->programs);
@@ -84,6 +88,7 @@ static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_rend
         return NULL;
     }
     glGenVertexArrays(1, &renderer->vertices);
+    glGenQueries(1, &renderer->query);
     /* Until the volume has arrived, so that callers can time it. */
     glFinish();
     return renderer;
@@ -252,8 +257,9 @@ static void set_state(const ang_scene *scene, const slicing *s, bool counting) {
     glDisable(GL_SCISSOR_TEST);
 }
 
-/* Depth 0 wherever the opacity has reached the threshold: nothing passes there any more. */
-static void finish_pixels(const ang_renderer *renderer, GLuint program) {
+/* Depth 0 wherever the opacity has reached the threshold: nothing passes there any more. Returns how many pixels are
+ * new among them. */
+static unsigned finish_pixels(const ang_renderer *renderer, GLuint program) {
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->accumulated.depth_only);
     glUseProgram(program);
     glActiveTexture(GL_TEXTURE0 + UNIT_ACCUMULATED);
@@ -261,11 +267,16 @@ static void finish_pixels(const ang_renderer *renderer, GLuint program) {
     glBindVertexArray(renderer->vertices);
     glDepthMask(GL_TRUE);
     glDepthRange(0, 0);
+    glBeginQuery(GL_SAMPLES_PASSED, renderer->query);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glEndQuery(GL_SAMPLES_PASSED);
     glDepthRange(0, 1);
     glDepthMask(GL_FALSE);
     glBindTexture(GL_TEXTURE_2D, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->accumulated.framebuffer);
+    GLuint found = 0;
+    glGetQueryObjectuiv(renderer->query, GL_QUERY_RESULT, &found);
+    return found;
 }
 
 /* slice_planes.glsl and slice_sample.glsl */
@@ -317,7 +328,9 @@ static bool accumulate(ang_renderer *renderer, const slicing *s, const programs 
                        const ang_progress *progress, ang_error *err) {
     const ang_slice_geometry *geometry = &renderer->geometry;
     const ang_volume_texture *bound = NULL;
-    double drawn = 0, since_look = 0, total = fmax(renderer->boxes.samples, 1);
+    double drawn = 0, since_look = 0, since_stop = 0, total = fmax(renderer->boxes.samples, 1);
+    double interval = s->order.most_samples,
+           worth = finish_share * renderer->accumulated.width * renderer->accumulated.height;
     int looks = 0;
     for (size_t i = 0; i < geometry->draws; i++) {
         const ang_slice_draw *draw = &geometry->draw[i];
@@ -334,14 +347,16 @@ static bool accumulate(ang_renderer *renderer, const slicing *s, const programs 
         stats->polygons += draw->polygons;
         drawn += draw->samples;
         since_look += draw->samples;
-        if (since_look < s->order.most_samples || i + 1 == geometry->draws) continue;
-        since_look = 0;
-        if (use->finish) {
-            finish_pixels(renderer, use->finish);
+        since_stop += draw->samples;
+        if (since_look >= interval && use->finish && i + 1 < geometry->draws) {
+            /* Where few pixels finish, looking less often is cheaper. */
+            interval = finish_pixels(renderer, use->finish) < worth ? 2 * interval : s->order.most_samples;
+            since_look = 0;
             looks++;
-        } else {
-            glFinish();
         }
+        if (since_stop < s->order.most_samples) continue;
+        since_stop = 0;
+        if (!use->finish) glFinish();
         if (!ang_progress_update(progress, "rendering", drawn / total))
             return ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering");
     }
