@@ -145,8 +145,12 @@ ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load
     if (!err) err = &own;
     if (!options) options = &defaults;
     *err = (ang_error){0};
-    *report = (ang_load_report){
-        .tilt_nominal_deg = NAN, .window_centre = NAN, .window_width = NAN, .slope = NAN, .intercept = NAN};
+    *report = (ang_load_report){.tilt_nominal_deg = NAN,
+                                .window_centre = NAN,
+                                .window_width = NAN,
+                                .slope = NAN,
+                                .intercept = NAN,
+                                .padding_found_hu = NAN};
     ang_volume *volume = dispatch(path, options, report, progress, err);
     if (!volume) return NULL;
     *err = (ang_error){0};

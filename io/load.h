@@ -61,9 +61,10 @@ typedef struct ang_load_report {
                                 added; NaN where slices differ or nothing was loaded */
     int bits_stored;
     bool padding_declared, padding_found; /* padding value from the tag; or from the corners */
-    double padding_hu;                    /* HU of the padding before it was replaced */
-    double rescale_error_hu;              /* largest rounding error where slices have different rescale; 0 otherwise */
-    double quantisation_hu;               /* step where float input was quantised; 0 otherwise */
+    double padding_hu;       /* HU of the padding before it was replaced: of the declared where there is both */
+    double padding_found_hu; /* HU of that in the corners; NaN where there is none */
+    double rescale_error_hu; /* largest rounding error where slices have different rescale; 0 otherwise */
+    double quantisation_hu;  /* step where float input was quantised; 0 otherwise */
     uint64_t nan_count, inf_count;
     uint32_t stored_crc32;              /* DESIGN.md, "Padding": stored values before padding was replaced */
     double window_centre, window_width; /* first window of the file; NaN where none */

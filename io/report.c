@@ -117,10 +117,15 @@ static void print_values(FILE *out, const ang_volume *volume, const ang_load_rep
             common ? "stored" : "the volume's value", intercept < 0 ? '-' : '+', fabs(intercept),
             common ? "" : ", as slices have different rescale", report->bits_stored,
             report->signed_stored ? "signed" : "unsigned");
-    if (volume->padding_count > 0)
-        fprintf(out, "  padding      %g%s (%s), %.1f %% of the voxels, shown as -1000%s\n", report->padding_hu, unit,
-                report->padding_declared ? "declared" : "found in the corners",
-                100.0 * (double)volume->padding_count / (double)ang_volume_count(volume), unit);
+    if (volume->padding_count > 0) {
+        fprintf(out, "  padding      %g%s (%s)", report->padding_hu, unit,
+                report->padding_declared ? "declared" : "found in the corners");
+        if (report->padding_declared && report->padding_found)
+            fprintf(out, " and %g%s (found in the corners)", report->padding_found_hu, unit);
+        fprintf(out, ", %.1f %% of the voxels, shown as %g%s\n",
+                100.0 * (double)volume->padding_count / (double)ang_volume_count(volume),
+                ang_volume_hu(volume, ang_volume_padding_value(volume)), unit);
+    }
     if (report->rescale_error_hu > 0)
         fprintf(out, "  rescale      off by up to %.3g%s\n", report->rescale_error_hu, unit);
     if (report->quantisation_hu > 0) fprintf(out, "  quantised    in steps of %.4g%s\n", report->quantisation_hu, unit);
@@ -204,6 +209,8 @@ static void add_geometry(cJSON *input, const ang_volume *volume, const ang_load_
     cJSON_AddBoolToObject(padding, "declared", report->padding_declared);
     cJSON_AddBoolToObject(padding, "found", report->padding_found);
     ang_json_add_number(padding, "hu", any ? report->padding_hu : NAN);
+    ang_json_add_number(padding, "found_hu", report->padding_found_hu);
+    ang_json_add_number(padding, "shown_hu", any ? ang_volume_hu(volume, ang_volume_padding_value(volume)) : NAN);
     cJSON_AddNumberToObject(padding, "voxels", (double)volume->padding_count);
 }
 

@@ -200,10 +200,11 @@ static bool finish(ang_volume *volume, int threads, ang_load_report *report, ang
     uint16_t padding;
     if (ang_volume_find_padding(volume, &padding)) {
         report->padding_found = true;
-        report->padding_hu = ang_volume_hu(volume, padding);
+        report->padding_hu = report->padding_found_hu = ang_volume_hu(volume, padding);
         if (!ang_volume_mark_padding(volume, padding, err)) return false;
-        ang_notes_add(&report->assumptions, "%g fills the corners: taken for padding (%.1f %%) and shown as -1000",
-                      report->padding_hu, 100.0 * (double)volume->padding_count / (double)ang_volume_count(volume));
+        ang_notes_add(&report->assumptions, "%g fills the corners: taken for padding (%.1f %%) and shown as %g",
+                      report->padding_hu, 100.0 * (double)volume->padding_count / (double)ang_volume_count(volume),
+                      ang_volume_hu(volume, ang_volume_padding_value(volume)));
     }
     ang_volume_update_range(volume, threads);
     return true;

@@ -205,6 +205,7 @@ static bool finish_values(const ang_dicom_stack *stack, ang_volume *volume, cons
     if (ok) {
         report_map(stack, maps, report);
         ang_dicom_common common = ang_dicom_merge(maps, least, greatest, count);
+        if (declared > 0) ang_dicom_make_room(&common, greatest, count);
         volume->slope = common.map.slope;
         volume->intercept = common.map.intercept;
         report->rescale_error_hu = common.error_hu;
@@ -213,14 +214,17 @@ static bool finish_values(const ang_dicom_stack *stack, ang_volume *volume, cons
         remap_job job = {.volume = volume, .decoded = decoded, .common = common, .mark = declared > 0, .range = ranges};
         ok = pass_over(stack, &job, err);
         uint16_t found;
-        if (ok && declared == 0 && ang_volume_find_padding(volume, &found)) {
+        if (ok && ang_volume_find_padding(volume, &found)) {
             report->padding_found = true;
-            report->padding_hu = ang_volume_hu(volume, found);
+            report->padding_found_hu = ang_volume_hu(volume, found);
+            if (declared == 0) report->padding_hu = report->padding_found_hu;
             for (size_t i = 0; i < count; i++)
                 ranges[i] = (ang_mask_range){found, found, ang_volume_padding_value(volume)};
             job.mark = true;
             job.common.same = true; /* the values are under the common map by now */
             ok = pass_over(stack, &job, err);
+            if (ok && declared > 0)
+                ang_volume_update_range(volume, stack->threads); /* that pass saw the other's fill */
         }
     }
     free(maps);

@@ -165,14 +165,24 @@ static void note_result(const ang_volume *volume, const ang_dicom_slice *first, 
     double share = 100.0 * (double)volume->padding_count / (double)ang_volume_count(volume);
     const char *unit = ang_load_report_hounsfield(report) ? " HU" : "";
     uint16_t low, high;
-    if (report->padding_found && ang_dicom_padding(first, &low, &high))
+    if (report->padding_found && !report->padding_declared && ang_dicom_padding(first, &low, &high))
         ang_notes_add(assumptions, "the declared padding value occurs nowhere");
-    if (report->padding_found)
-        ang_notes_add(assumptions, "%g%s fills the corners: taken for padding (%.1f %%) and shown as -1000%s",
-                      report->padding_hu, unit, share, unit);
-    if (report->padding_declared)
-        ang_notes_add(assumptions, "declared padding, %g%s, %.1f %% of the voxels, is shown as -1000%s",
-                      report->padding_hu, unit, share, unit);
+    double shown = ang_volume_hu(volume, ang_volume_padding_value(volume));
+    if (report->padding_found && report->padding_declared)
+        ang_notes_add(assumptions,
+                      "declared padding, %g%s, and %g%s, which fills the corners, together %.1f %% of the voxels, are "
+                      "shown as %g%s",
+                      report->padding_hu, unit, report->padding_found_hu, unit, share, shown, unit);
+    else if (report->padding_found)
+        ang_notes_add(assumptions, "%g%s fills the corners: taken for padding (%.1f %%) and shown as %g%s",
+                      report->padding_found_hu, unit, share, shown, unit);
+    else if (report->padding_declared)
+        ang_notes_add(assumptions, "declared padding, %g%s, %.1f %% of the voxels, is shown as %g%s",
+                      report->padding_hu, unit, share, shown, unit);
+    if (report->padding_declared && fabs(shown + 1000) > fmax(1, volume->slope / 2))
+        ang_notes_add(&report->warnings,
+                      "16 bits hold no value for -1000%s beside the others: padding is shown as %g%s", unit, shown,
+                      unit);
     if (report->padding_declared && report->padding_hu > -900)
         ang_notes_add(&report->warnings, "the declared padding value is %g%s, which may also be tissue",
                       report->padding_hu, unit);

@@ -78,6 +78,20 @@ uint16_t ang_dicom_remap(uint16_t value, ang_dicom_map from, ang_dicom_map to) {
     return stored <= 0 ? 0 : stored >= 65535 ? 65535 : (uint16_t)stored;
 }
 
+/* The largest error in HU of values first[i] to last[i] under maps[i] when they are taken over to `to`. */
+static double rounding_error(const ang_dicom_map *maps, const uint16_t *first, const uint16_t *last, size_t count,
+                             ang_dicom_map to) {
+    double error = 0;
+    for (size_t i = 0; i < count; i++) {
+        for (uint32_t v = first[i]; v <= last[i]; v++) {
+            double hu = maps[i].slope * v + maps[i].intercept;
+            uint16_t there = ang_dicom_remap((uint16_t)v, maps[i], to);
+            error = fmax(error, fabs(to.slope * there + to.intercept - hu));
+        }
+    }
+    return error;
+}
+
 ang_dicom_common ang_dicom_merge(const ang_dicom_map *maps, const uint16_t *first, const uint16_t *last, size_t count) {
     ang_dicom_common common = {.same = true, .map = {1, 0}};
     if (count == 0) return common;
@@ -101,14 +115,26 @@ ang_dicom_common ang_dicom_merge(const ang_dicom_map *maps, const uint16_t *firs
     low = fmin(low, -1000);
     /* On the lattice of integers where all maps are on it: slopes of 1 with whole intercepts stay exact. */
     if (slope == 1) low = floor(low);
-    if ((high - low) / slope > 65535) slope = (high - low) / 65535;
     common.map = (ang_dicom_map){slope, low};
-    for (size_t i = 0; i < count; i++) {
-        for (uint32_t v = first[i]; v <= last[i]; v++) {
-            double hu = maps[i].slope * v + maps[i].intercept;
-            uint16_t there = ang_dicom_remap((uint16_t)v, maps[i], common.map);
-            common.error_hu = fmax(common.error_hu, fabs(slope * there + low - hu));
+    common.error_hu = rounding_error(maps, first, last, count, common.map);
+    /* Where no lattice of the least slope holds all values, the finest that 16 bits allow is nearer to them. */
+    ang_dicom_map finest = {(high - low) / 65535, low};
+    bool fits = (high - low) / slope <= 65535;
+    if (finest.slope > 0 && (!fits || common.error_hu > 1e-9)) {
+        double error_hu = rounding_error(maps, first, last, count, finest);
+        if (!fits || error_hu < common.error_hu) {
+            common.map = finest;
+            common.error_hu = error_hu;
         }
     }
     return common;
+}
+
+void ang_dicom_make_room(ang_dicom_common *common, const uint16_t *last, size_t count) {
+    if (!common->same) return; /* ang_dicom_merge has seen to it */
+    double offset = ceil((common->map.intercept + 1000) / common->map.slope - 0.5), greatest = 0;
+    for (size_t i = 0; i < count; i++) greatest = fmax(greatest, last[i]);
+    if (!(offset > 0) || greatest + offset > 65535) return;
+    common->map.intercept -= offset * common->map.slope;
+    common->same = false;
 }

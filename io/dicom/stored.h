@@ -46,6 +46,10 @@ typedef struct ang_dicom_common {
 
 ang_dicom_common ang_dicom_merge(const ang_dicom_map *maps, const uint16_t *first, const uint16_t *last, size_t count);
 
+/* Shifts the map of `common` by whole values where -1000 HU, what padding becomes, lies below its first value and 16
+ * bits hold the shifted values up to the greatest of last[...]: `same` becomes false then. Nothing is rounded. */
+void ang_dicom_make_room(ang_dicom_common *common, const uint16_t *last, size_t count);
+
 /* The value under `to` that is nearest to what `value` means under `from`, clamped to 16 bits. */
 uint16_t ang_dicom_remap(uint16_t value, ang_dicom_map from, ang_dicom_map to);
 

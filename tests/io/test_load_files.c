@@ -2,6 +2,12 @@
 #define FOLDER ANG_TEST_TMP "/load-files"
 #include "tests/io/small_dicom.h"
 
+static bool warned(const ang_load_report *report, const char *needle) {
+    for (size_t i = 0; i < report->warnings.count; i++)
+        if (strstr(report->warnings.text[i], needle)) return true;
+    return false;
+}
+
 static void test_small_series(void **state) {
     (void)state;
     fresh_folder(FOLDER);
@@ -170,6 +176,59 @@ static void test_declared_padding(void **state) {
     ang_load_report_clear(&report);
 }
 
+/* One declared value does not switch off the search for what fills the corners. */
+static void test_declared_and_found_padding(void **state) {
+    (void)state;
+    fresh_folder(FOLDER);
+    for (int i = 0; i < 3; i++) {
+        form f = form_at(i, 1000);
+        f.is_signed = f.has_padding = true;
+        f.padding = 63536;
+        f.intercept = "0";
+        f.pixels[0] = f.pixels[4] = f.pixels[10] = f.pixels[14] = (uint16_t)-3000;
+        if (i == 1) f.pixels[7] = (uint16_t)-2000;
+        char name[8];
+        snprintf(name, sizeof name, "%d", i);
+        small(name, &f);
+    }
+    ang_load_report report;
+    ang_volume *v = load(FOLDER, &report);
+    assert_true(report.padding_declared && report.padding_found);
+    assert_float_equal(report.padding_hu, -2000, 0);
+    assert_float_equal(report.padding_found_hu, -3000, 0);
+    assert_int_equal(v->padding_count, 13);
+    assert_float_equal(hu_at(v, 0, 0, 0), -1000, 0);
+    assert_float_equal(hu_at(v, 2, 1, 1), -1000, 0);
+    assert_float_equal(ang_volume_hu(v, v->minimum), 1001, 0);
+    assert_float_equal(ang_volume_hu(v, v->maximum), 1013, 0);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+}
+
+/* Unsigned values with intercept 0 start at water: padding must be air all the same. */
+static void test_padding_below_the_first_value(void **state) {
+    (void)state;
+    for (int full = 0; full < 2; full++) {
+        fresh_folder(FOLDER);
+        form f = form_at(0, 100);
+        f.intercept = "0";
+        f.has_padding = true;
+        f.padding = f.pixels[7] = 4095;
+        if (full) f.pixels[8] = 65535; /* no room below */
+        small("a", &f);
+        ang_load_report report;
+        ang_volume *v = load(FOLDER, &report);
+        assert_float_equal(hu_at(v, 2, 1, 0), full ? 0 : -1000, 0);
+        assert_float_equal(hu_at(v, 1, 1, 0), 106, 0);
+        assert_float_equal(ang_volume_hu(v, v->minimum), 100, 0);
+        assert_float_equal(report.slope, 1, 0);
+        assert_float_equal(report.intercept, 0, 0); /* the file's own, whatever the volume's is */
+        assert_int_equal(warned(&report, "16 bits hold no value for -1000 HU"), full);
+        ang_volume_free(v);
+        ang_load_report_clear(&report);
+    }
+}
+
 static void test_padding_at_a_tie(void **state) {
     (void)state;
     fresh_folder(FOLDER);
@@ -268,12 +327,6 @@ static void test_invalid_spacing(void **state) {
     ang_load_report_clear(&report);
 }
 
-static bool warned(const ang_load_report *report, const char *needle) {
-    for (size_t i = 0; i < report->warnings.count; i++)
-        if (strstr(report->warnings.text[i], needle)) return true;
-    return false;
-}
-
 /* "1,5" is no decimal string: its first digits are no value. */
 static void test_numbers_with_junk_behind_them(void **state) {
     (void)state;
@@ -354,6 +407,8 @@ int main(void) {
         cmocka_unit_test(test_clear_errors),
         cmocka_unit_test(test_rescale_by_slice),
         cmocka_unit_test(test_declared_padding),
+        cmocka_unit_test(test_declared_and_found_padding),
+        cmocka_unit_test(test_padding_below_the_first_value),
         cmocka_unit_test(test_padding_at_a_tie),
         cmocka_unit_test(test_damaged_double_is_left_out),
         cmocka_unit_test(test_doubles_without_orientation_or_position),
