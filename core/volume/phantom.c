@@ -14,6 +14,7 @@ const ang_phantom_params ang_phantom_params_default = {
 static const double field_of_view[3] = {230.4, 230.4, 96};
 static const double channel_gap = 1.5; /* mm between an artery and the bone it passes */
 static const double lowest_hu = -1024;
+static const double least_spacing = 0.01; /* mm; below, a vessel alone would fill the volume and take for ever */
 /* Width of an edge in voxels: about what a scanner's point spread gives, and smooth enough for gradients. */
 static const double edge_voxels = 1.4;
 
@@ -81,16 +82,19 @@ static void keep_larger(float *to, double value) {
     if (value > (double)*to) *to = (float)value;
 }
 
+/* Far segments of a small volume have indices that no int holds. */
+static int clamped(double index, int low, int high) { return (int)fmin(fmax(index, low), high); }
+
 static void draw_segment(const field *f, const segment *s, int z, float *layer) {
     const ang_volume *v = f->volume;
     ang_vec3 origin = {v->affine.m[0][3], v->affine.m[1][3], v->affine.m[2][3]}, h = f->spacing;
     double pz = origin.z + z * h.z, gap = s->arterial ? channel_gap : 0;
     double reach = fmax(s->ra, s->rb) + gap + f->edge;
     if (pz < fmin(s->a.z, s->b.z) - reach || pz > fmax(s->a.z, s->b.z) + reach) return;
-    int x0 = (int)fmax(0, ceil((fmin(s->a.x, s->b.x) - reach - origin.x) / h.x));
-    int y0 = (int)fmax(0, ceil((fmin(s->a.y, s->b.y) - reach - origin.y) / h.y));
-    int x1 = (int)fmin(v->dims[0] - 1, floor((fmax(s->a.x, s->b.x) + reach - origin.x) / h.x));
-    int y1 = (int)fmin(v->dims[1] - 1, floor((fmax(s->a.y, s->b.y) + reach - origin.y) / h.y));
+    int x0 = clamped(ceil((fmin(s->a.x, s->b.x) - reach - origin.x) / h.x), 0, v->dims[0]);
+    int y0 = clamped(ceil((fmin(s->a.y, s->b.y) - reach - origin.y) / h.y), 0, v->dims[1]);
+    int x1 = clamped(floor((fmax(s->a.x, s->b.x) + reach - origin.x) / h.x), -1, v->dims[0] - 1);
+    int y1 = clamped(floor((fmax(s->a.y, s->b.y) + reach - origin.y) / h.y), -1, v->dims[1] - 1);
     size_t plane = (size_t)v->dims[0] * (size_t)v->dims[1];
     ang_vec3 along = ang_vec3_sub(s->b, s->a);
     double squared = ang_vec3_dot(along, along);
@@ -161,9 +165,9 @@ static bool check_params(const ang_phantom_params *p, ang_error *err) {
         if (p->dims[i] < 1 || p->dims[i] > 65535) {
             return ang_fail(err, ANG_USAGE, "phantom: %d voxels along an axis; give 1 to 65535", p->dims[i]);
         }
-        if (!(p->spacing_mm[i] >= 0 && p->spacing_mm[i] <= 1000)) {
-            return ang_fail(err, ANG_USAGE, "phantom: a spacing of %g mm; give more than 0, at most 1000",
-                            p->spacing_mm[i]);
+        double spacing = p->spacing_mm[i];
+        if (spacing != 0 && !(spacing >= least_spacing && spacing <= 1000)) {
+            return ang_fail(err, ANG_USAGE, "phantom: a spacing of %g mm; give %g to 1000", spacing, least_spacing);
         }
     }
     if (!(p->noise_hu >= 0 && p->noise_hu <= 1000)) {

@@ -12,7 +12,8 @@
  * reaches about from -88 to 88 in x, -108 to 116 in y and -125 to 112 in z. */
 typedef struct ang_phantom_params {
     int dims[3];          /* voxels, each >= 1; default 512, 512, 96 */
-    double spacing_mm[3]; /* default 0 each: the field of view of 230.4 x 230.4 x 96 mm over dims (0.45, 0.45, 1) */
+    double spacing_mm[3]; /* 0.01 to 1000; default 0 each: the field of view of 230.4 x 230.4 x 96 mm over dims (0.45,
+                             0.45, 1) */
     ang_vec3 centre_mm;   /* the box's centre, LPS; default 0, 5, 8 */
     uint64_t seed;        /* of noise and small branches; default 1 */
     double noise_hu;      /* standard deviation, >= 0; default 8 */

@@ -100,6 +100,8 @@ static void phantoms_that_cannot_be_are_refused(void **state) {
     assert_non_null(strstr(output, "each from 1 to 65535"));
     expect(2, "phantom -o " TMP "/never --dims 8x8x8 --spacing 0,1,1 2>&1");
     assert_non_null(strstr(output, "--spacing 0,1,1"));
+    expect(2, "phantom -o " TMP "/never --dims 8x8x8 --spacing 1e-20,1e-20,1e-20 2>&1");
+    assert_non_null(strstr(output, "give 0.01 to 1000"));
     assert_false(exists(TMP "/never"));
     expect(0, "phantom --help");
     assert_non_null(strstr(output, "folder to write"));
