@@ -1,5 +1,6 @@
 #include "io/load.h"
 
+#include "core/transfer/transfer.h"
 #include "io/dicom/dicom.h"
 #include "io/formats.h"
 #include "io/replace.h"
@@ -117,6 +118,28 @@ static ang_volume *dispatch(const char *path, const ang_load_options *options, a
     return NULL;
 }
 
+/* Numbers that are finite and yet none of a scan: everything after this may count on sensible ones. */
+static bool check_numbers(const ang_volume *volume, const char *label, ang_error *err) {
+    static const double least_slope = 1e-30, least_spacing = 1e-6, most_spacing = 1e6; /* floats hold their powers */
+    double low = ang_volume_hu(volume, volume->minimum), high = ang_volume_hu(volume, volume->maximum);
+    if (!(low >= -ANG_TRANSFER_HU_LIMIT && high <= ANG_TRANSFER_HU_LIMIT))
+        return ang_fail(err, ANG_INPUT, "%s: its values, %g to %g, are beyond %g; is the rescale right?", label, low,
+                        high, ANG_TRANSFER_HU_LIMIT);
+    if (!(volume->slope >= least_slope))
+        return ang_fail(err, ANG_INPUT, "%s: its values differ by %g only; is the rescale right?", label,
+                        volume->slope);
+    ang_mat4 inverse;
+    bool sound = ang_mat4_inverse(&volume->affine, &inverse);
+    for (int axis = 0; axis < 3; axis++) {
+        double spacing = ang_volume_spacing(volume, axis);
+        sound = sound && spacing >= least_spacing && spacing <= most_spacing && isfinite(volume->affine.m[axis][3]);
+    }
+    return sound ||
+           ang_fail(err, ANG_GEOMETRY,
+                    "%s: voxels of %g x %g x %g mm, or where they lie, make no volume; is the spacing right?", label,
+                    ang_volume_spacing(volume, 0), ang_volume_spacing(volume, 1), ang_volume_spacing(volume, 2));
+}
+
 /* Whether `path` lies in `folder` or below it. */
 static bool lies_in(const char *folder, const char *path) {
     char *outer = realpath(folder, NULL), *inner = outer ? realpath(path, NULL) : NULL;
@@ -154,6 +177,10 @@ ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load
     ang_volume *volume = dispatch(path, options, report, progress, err);
     if (!volume) return NULL;
     *err = (ang_error){0};
+    if (!check_numbers(volume, ang_base_name(path), err)) {
+        ang_volume_free(volume);
+        return NULL;
+    }
     if (options->strict && report->warnings.count > 0) {
         char line[ANG_NOTES_LINE];
         ang_fail(err, ANG_GEOMETRY, "--strict: %s", ang_notes_line(&report->warnings, 0, true, line, sizeof line));

@@ -76,7 +76,8 @@ void ang_load_report_clear(ang_load_report *report);
 bool ang_load_report_hounsfield(const ang_load_report *report);
 
 /* Reads `path` into a new volume (free with ang_volume_free) and fills `report`, also as far as it came where it fails.
- * NULL with ANG_USAGE (an option or a sidecar is wrong), ANG_INPUT, ANG_GEOMETRY, ANG_LIMIT, ANG_INTERRUPTED. A file
+ * NULL with ANG_USAGE (an option or a sidecar is wrong), ANG_INPUT (also for values beyond
+ * ANG_TRANSFER_HU_LIMIT), ANG_GEOMETRY (also for spacings outside 1e-6 to 1e6 mm), ANG_LIMIT, ANG_INTERRUPTED. A file
  * that cannot be read costs a warning about it where others of its series can; its base name is the note's `file`. */
 ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load_report *report,
                      const ang_progress *progress, ang_error *err);

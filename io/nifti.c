@@ -141,6 +141,19 @@ static ang_volume *load_image(const nifti_image *image, const char *voxels, cons
     return NULL;
 }
 
+/* What the library would print about: it is asked only where it has nothing to say. */
+static bool is_sound(const nifti_1_header *header) {
+    uint16_t dim[2], type;
+    memcpy(dim, header->dim, sizeof dim);
+    memcpy(&type, &header->datatype, sizeof type);
+    if (dim[0] < 1 || dim[0] > 7) { /* the other byte order */
+        dim[0] = __builtin_bswap16(dim[0]);
+        dim[1] = __builtin_bswap16(dim[1]);
+        type = __builtin_bswap16(type);
+    }
+    return dim[0] >= 1 && dim[0] <= 7 && dim[1] >= 1 && dim[1] <= INT16_MAX && type != DT_UNKNOWN && type != DT_BINARY;
+}
+
 ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, ang_load_report *report,
                            const ang_progress *progress, ang_error *err) {
     snprintf(report->format, sizeof report->format, "NIfTI-1");
@@ -148,6 +161,10 @@ ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, an
     nifti_1_header header;
     if (!read_header(path, &header)) {
         ang_fail(err, ANG_INPUT, "%s: is no NIfTI-1 file", label);
+        return NULL;
+    }
+    if (!is_sound(&header)) {
+        ang_fail(err, ANG_INPUT, "%s: its NIfTI-1 header is damaged", label);
         return NULL;
     }
     char *voxels = voxel_file(path, &header);

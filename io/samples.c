@@ -163,7 +163,8 @@ static bool fill(reading *reading, ang_volume *volume, ang_load_report *report, 
         double range = q.greatest - q.least;
         if (!isfinite(range))
             return ang_fail(err, ANG_INPUT, "%s: its values span more than a double holds", source->label);
-        q.step = q.whole && range <= 65535 ? 1 : range > 0 ? range / 65535 : 1;
+        q.step = q.whole && range <= 65535 ? 1 : range / 65535;
+        if (!(q.step > 0)) q.step = 1; /* one value, or a range of denormal numbers */
         if (q.step != 1 || !q.whole) report->quantisation_hu = q.step * fabs(source->slope);
     }
     if (!pass(reading, NULL, &q, volume->data, err)) return false;

@@ -50,10 +50,30 @@ static void wrong_raw_options_give_two(void **state) {
     assert_non_null(strstr(output, "--raw-dims 99999999999x1x1"));
 }
 
+static void libraries_keep_quiet(void **state) {
+    (void)state;
+    fresh_folder(FOLDER);
+    unsigned char header[352] = {92, 1};
+    header[40] = 3; /* dim[0]; dim[1] is -3 */
+    header[42] = 0xFD;
+    header[43] = 0xFF;
+    header[44] = header[46] = 2;
+    header[70] = 2; /* uint8 */
+    header[72] = 8;
+    memcpy(header + 344, "n+1", 4);
+    FILE *out = fopen(FOLDER "/bad.nii", "wb");
+    assert_non_null(out);
+    fwrite(header, 1, sizeof header, out);
+    fclose(out);
+    assert_int_equal(run("info --quiet " FOLDER "/bad.nii 2>&1"), 3);
+    assert_int_equal(strncmp(output, "angioscope: bad.nii: ", 21), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_not_loaded_is_listed),
         cmocka_unit_test(wrong_raw_options_give_two),
+        cmocka_unit_test(libraries_keep_quiet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

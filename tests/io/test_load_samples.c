@@ -148,6 +148,63 @@ static void must_refuse(const char *path, const ang_load_options *options, ang_c
     ang_load_report_clear(&report);
 }
 
+#ifdef ANG_WITH_NIFTI
+
+/* A NIfTI-1 header by its byte offsets, little endian. */
+static void nifti_header(uint8_t h[352], const int16_t dim[8], int type, int bits) {
+    memset(h, 0, 352);
+    h[0] = 92;
+    h[1] = 1;
+    memcpy(h + 40, dim, 16);
+    h[70] = (uint8_t)type;
+    h[71] = (uint8_t)(type >> 8);
+    h[72] = (uint8_t)bits;
+    float pixdim[8] = {1, 0.5F, 0.75F, 2, 1, 1, 1, 1}, offset = 352;
+    memcpy(h + 76, pixdim, sizeof pixdim);
+    memcpy(h + 108, &offset, 4);
+    memcpy(h + 344, "n+1", 4);
+}
+
+#endif
+
+static void test_absurd_numbers_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *slope, *intercept, *spacing;
+        ang_code code;
+    } cases[] = {{"1e300", "0", NULL, ANG_INPUT},     {"1e308", "1e308", NULL, ANG_INPUT},
+                 {"1e-300", "0", NULL, ANG_INPUT},    {"1", "-1e10", NULL, ANG_INPUT},
+                 {"1", "0", "1e30\\1", ANG_GEOMETRY}, {"1", "0", "1e-30\\1", ANG_GEOMETRY}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        fresh_folder(FOLDER);
+        form f = form_at(0, 1000);
+        f.slope = cases[i].slope;
+        f.intercept = cases[i].intercept;
+        f.spacing = cases[i].spacing;
+        small("a", &f);
+        must_fail(FOLDER "/a", cases[i].code, "a: ");
+    }
+    /* A range so small that a 65535th of it is 0. */
+    float denormal[8] = {0, 1e-45F, 0, 0, 0, 0, 0, 0};
+    write_file("f32.raw", denormal, sizeof denormal);
+    ang_load_options options = {.raw_dims = "2x2x2", .raw_type = "f32"};
+    must_refuse(FOLDER "/f32.raw", &options, ANG_INPUT, "differ by");
+#ifdef ANG_WITH_NIFTI
+    struct {
+        uint8_t header[352];
+        double voxels[8];
+    } nifti = {.voxels = {0, 4.9e-324}};
+    nifti_header(nifti.header, (const int16_t[8]){3, 2, 2, 2, 1, 1, 1, 1}, 64, 64);
+    write_file("denormal.nii", &nifti, sizeof nifti);
+    ang_load_report report;
+    ang_volume *v = load(FOLDER "/denormal.nii", &report);
+    assert_float_equal(v->slope, 1, 0);
+    assert_float_equal(hu_at(v, 1, 0, 0), 0, 0);
+    ang_volume_free(v);
+    ang_load_report_clear(&report);
+#endif
+}
+
 static void test_options_for_other_formats(void **state) {
     (void)state;
     fresh_folder(FOLDER);
@@ -189,21 +246,6 @@ static void test_formats_that_are_not_read(void **state) {
 }
 
 #ifdef ANG_WITH_NIFTI
-
-/* A NIfTI-1 header by its byte offsets, little endian. */
-static void nifti_header(uint8_t h[352], const int16_t dim[8], int type, int bits) {
-    memset(h, 0, 352);
-    h[0] = 92;
-    h[1] = 1;
-    memcpy(h + 40, dim, 16);
-    h[70] = (uint8_t)type;
-    h[71] = (uint8_t)(type >> 8);
-    h[72] = (uint8_t)bits;
-    float pixdim[8] = {1, 0.5F, 0.75F, 2, 1, 1, 1, 1}, offset = 352;
-    memcpy(h + 76, pixdim, sizeof pixdim);
-    memcpy(h + 108, &offset, 4);
-    memcpy(h + 344, "n+1", 4);
-}
 
 static void test_nifti(void **state) {
     (void)state;
@@ -254,6 +296,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_raw),
         cmocka_unit_test(test_maps_belong_to_the_checksum),
+        cmocka_unit_test(test_absurd_numbers_are_refused),
         cmocka_unit_test(test_options_for_other_formats),
         cmocka_unit_test(test_formats_that_are_not_read),
 #ifdef ANG_WITH_NIFTI
