@@ -24,6 +24,8 @@ if command -v clang-format >/dev/null 2>&1; then
     found=$(find app core io tests -name '*.c' -o -name '*.h' -o -name '*.cpp' | xargs clang-format --dry-run 2>&1 |
         grep -E 'warning:' | cut -d: -f1 | sort -u || true)
     [ -z "$found" ] || complain "not formatted (make format)" "$found"
+elif [ -n "${CI:-}" ]; then
+    complain "clang-format is not installed" "continuous integration must check formatting"
 else
     echo "clang-format is not installed: formatting is not checked"
 fi
