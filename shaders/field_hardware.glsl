@@ -1,4 +1,4 @@
-// Interpolation by the texture unit.
+// The stored value, interpolated by the texture unit.
 float field_at(vec3 place) {
-    return field_stored(textureLod(field_values, place * field_scale + field_offset, 0.0).r);
+    return 65535.0 * textureLod(field_values, place * field_scale + field_offset, 0.0).r;
 }

@@ -1,3 +1,4 @@
+// The stored value, interpolated here.
 float field_at(vec3 place) {
-    return field_stored(trilinear(field_values, place));
+    return 65535.0 * trilinear(field_values, place);
 }

@@ -18,7 +18,7 @@ vec4 march(Ray ray, out float samples) {
             piece = lattice_length(i, count, reach);
             place = start + lattice_place(i, piece) * ray.direction;
             i++;
-            medium = transfer_at(field_at(place));
+            medium = transfer_at(stored_from(field_at(place)));
         } while (medium.a <= 0.0 && i < count);
         float added = (1.0 - opacity) * opacity_of(medium.a * piece);
         colour += added * shade(medium.rgb, place, ray.direction_mm, true);

@@ -10,14 +10,14 @@ vec4 march(Ray ray, out float samples) {
     vec3 start = ray.origin + ray.enter * ray.direction;
     float before = 0.0;
     float at = 0.0;
-    float value = field_at(start);
+    float value = stored_from(field_at(start));
     bool cut = value >= iso_stored;
     int evaluated = 1;
     // The sample after the last is the exit.
     for (int i = 0; i <= count && value < iso_stored; i++) {
         before = at;
         at = i < count ? lattice_place(i, lattice_length(i, count, reach)) : reach;
-        value = field_at(start + at * ray.direction);
+        value = stored_from(field_at(start + at * ray.direction));
         evaluated++;
     }
     samples = float(evaluated);
@@ -28,7 +28,7 @@ vec4 march(Ray ray, out float samples) {
     } else {
         for (int i = 0; i < iso_refinements; i++) {
             float middle = 0.5 * (before + at);
-            if (field_at(start + middle * ray.direction) >= iso_stored)
+            if (stored_from(field_at(start + middle * ray.direction)) >= iso_stored)
                 at = middle;
             else
                 before = middle;

@@ -33,8 +33,12 @@ vec3 slice_along_mm(vec2 pixel) {
     return ray_from_eye_mm + spread.x * ray_step_x_mm + spread.y * ray_step_y_mm;
 }
 
-// mm of the ray in one mm of depth.
+// mm of the ray in one mm of depth. The picture's axes and the view axis are at right angles, so that the way across is
+// that from the middle of the picture.
+uniform vec2 slice_middle;   // pixels; the foot of the eye's perpendicular
+uniform float slice_tangent; // of the angle between the axis and the ray one pixel off it; in parallel projection 0
+
 float slice_slant(vec2 pixel) {
-    vec3 along_mm = slice_along_mm(pixel);
-    return slice_inverse_reference * sqrt(dot(along_mm, along_mm));
+    vec2 off = (pixel - slice_middle) * slice_tangent;
+    return sqrt(1.0 + dot(off, off));
 }

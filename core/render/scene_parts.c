@@ -20,11 +20,19 @@ int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume) {
     return 1 + ang_scene_needs_table(scene) + 6 * ang_scene_needs_phong(scene) + ang_scene_needs_weight(scene, volume);
 }
 
+/* Whether the picture jumps with the value, so that its last bits matter. */
+static bool needs_exact(const ang_scene *scene) {
+    return scene->mode == ANG_MODE_ISO || ang_transfer_jumps(scene->transfer);
+}
+
 void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume) {
-    if (ang_scene_needs_table(scene))
+    if (ang_scene_needs_table(scene)) {
         ang_plan_use(plan, "transfer function");
-    else
+        if (!needs_exact(scene))
+            ang_plan_leave_out(plan, "rounding to stored values", "the transfer function has no step");
+    } else {
         ang_plan_leave_out(plan, "transfer function", "this mode shows values through the window");
+    }
     if (ang_scene_needs_phong(scene))
         ang_plan_use(plan, "gradients by central differences, Phong");
     else
@@ -52,6 +60,10 @@ void ang_parts_classification(ang_shader_source *source, const ang_scene *scene)
         ANG_SHADER_ADD(source, window);
         return;
     }
+    if (needs_exact(scene))
+        ANG_SHADER_ADD(source, stored_exact);
+    else
+        ANG_SHADER_ADD(source, stored_near);
     ANG_SHADER_ADD(source, transfer);
     if (ang_scene_needs_phong(scene)) {
         ANG_SHADER_ADD(source, gradient);

@@ -21,7 +21,7 @@ int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume);
 /* Adds to the plan what the scene itself takes and leaves out, whatever the method. */
 void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume);
 
-/* Parts: field_at; transfer_at and shade, or window_grey; weight_at. */
+/* Parts: field_at; stored_from, transfer_at and shade, or window_grey; weight_at. */
 void ang_parts_field(ang_shader_source *source, bool manual);
 void ang_parts_classification(ang_shader_source *source, const ang_scene *scene);
 void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual);

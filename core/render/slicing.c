@@ -284,6 +284,12 @@ static void set_planes(GLuint program, const slicing *s) {
     const ang_ray_frame *frame = &s->frame;
     double reference = ang_vec3_dot(ang_vec3_sub(frame->origin_mm, frame->eye_mm), frame->axis_mm);
     ang_uniform_float(program, "slice_inverse_reference", frame->perspective ? 1 / reference : 1);
+    ang_vec3 to_eye = ang_vec3_sub(frame->eye_mm, frame->origin_mm);
+    double pixel2 = ang_vec3_dot(frame->step_x_mm, frame->step_x_mm);
+    glProgramUniform2f(program, glGetUniformLocation(program, "slice_middle"),
+                       (float)(ang_vec3_dot(to_eye, frame->step_x_mm) / pixel2),
+                       (float)(ang_vec3_dot(to_eye, frame->step_y_mm) / pixel2));
+    ang_uniform_float(program, "slice_tangent", frame->perspective ? sqrt(pixel2) / reference : 0);
 
     ang_uniform_float(program, "slice_first", s->planes.first);
     ang_uniform_float(program, "slice_distance", s->planes.distance);

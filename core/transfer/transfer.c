@@ -347,3 +347,12 @@ bool ang_transfer_visible(const ang_transfer *transfer, double low, double high)
         return true;
     return ang_transfer_extinction(transfer, low) > 0 || ang_transfer_extinction(transfer, high) > 0;
 }
+
+bool ang_transfer_jumps(const ang_transfer *transfer) {
+    const ang_transfer_point *points = transfer->points;
+    for (size_t i = 0; i < transfer->count; i++) {
+        if (i > 0 && points[i].hu == points[i - 1].hu) return true;
+        if (!transfer->by_extinction && points[i].opacity == 1) return true;
+    }
+    return false;
+}

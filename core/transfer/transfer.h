@@ -68,6 +68,8 @@ ang_transfer_integral ang_transfer_integrate_between(const ang_transfer *transfe
 /* Whether the closed interval [low, high] of HU meets a plateau at opacity 1 (an interval of positive length, or an end
  * value), its ends included where the opacity there is 1. O(log points). */
 bool ang_transfer_opaque_between(const ang_transfer *transfer, double low, double high);
+/* Whether extinction or colour change at once somewhere: two points at one HU, or the end of a plateau at opacity 1. */
+bool ang_transfer_jumps(const ang_transfer *transfer);
 /* Exact: whether at any HU in the closed interval [low, high] the extinction is > 0. O(log points). */
 bool ang_transfer_visible(const ang_transfer *transfer, double low, double high);
 

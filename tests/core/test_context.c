@@ -10,7 +10,7 @@
 
 /* From shaders/, embedded; tests see no generated headers. */
 extern const char ang_shader_version[], ang_shader_triangle[], ang_shader_field[], ang_shader_trilinear[],
-    ang_shader_field_manual[], ang_shader_field_hardware[];
+    ang_shader_field_manual[], ang_shader_field_hardware[], ang_shader_stored_exact[];
 
 static const ang_backend backends[] = {ANG_BACKEND_OSMESA, ANG_BACKEND_EGL};
 enum { backend_count = sizeof backends / sizeof *backends };
@@ -129,8 +129,8 @@ static void read_voxels(ang_gl *gl, const ang_volume *volume, bool manual, ang_i
                                "    vec3 coordinate = (vec3(voxel) + 0.5) / vec3(dims);\n"
                                "    values = vec4(texelFetch(field_values, voxel, 0).r * 65535.0,\n"
                                "                  textureLod(field_values, coordinate, 0.0).r * 65535.0,\n"
-                               "                  field_at(vec3(voxel) - 0.5 * vec3(dims - 1)),\n"
-                               "                  field_stored(texelFetch(field_values, voxel, 0).r));\n"
+                               "                  stored_from(field_at(vec3(voxel) - 0.5 * vec3(dims - 1))),\n"
+                               "                  stored_from(65535.0 * texelFetch(field_values, voxel, 0).r));\n"
                                "}\n";
     ang_error err = {0};
     ang_volume_texture texture = {0};
@@ -149,6 +149,7 @@ static void read_voxels(ang_gl *gl, const ang_volume *volume, bool manual, ang_i
     } else {
         ANG_SHADER_ADD(&fragment, field_hardware);
     }
+    ANG_SHADER_ADD(&fragment, stored_exact);
     ang_shader_add(&fragment, "test", text);
     unsigned program = ang_programs_get(&programs, "a test", &vertex, &fragment, &err);
     if (!program) fail_msg("%s", err.message);
