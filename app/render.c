@@ -42,21 +42,28 @@ static bool load(session *run, ang_error *err) {
     return run->volume != NULL;
 }
 
+static bool open_gl(session *run, ang_backend backend, ang_error *err) {
+    run->gl = ang_gl_create(backend, err);
+    if (!run->gl) return false;
+    run->summary.gl_backend = ang_gl_backend(run->gl);
+    run->summary.gl_renderer = ang_gl_renderer(run->gl);
+    run->summary.gl_version = ang_gl_version(run->gl);
+    return true;
+}
+
 /* Finds the method and, where it needs one, a GL context. */
 static bool open_renderer(session *run, ang_error *err) {
-    const char *name = run->options->method;
+    const char *name = run->options->method, *why = "--method";
     ang_backend backend = (ang_backend)ang_backend_from_name(run->options->backend);
     bool automatic = strcmp(name, "auto") == 0;
-    if (automatic) name = backend == ANG_BACKEND_NONE ? "reference" : "singlepass";
-    run->method = ang_method_find(name);
-    if (!run->method) return ang_fail(err, ANG_USAGE, "--method %s: there is no such method", name);
-    if (run->method->needs_gl) {
-        run->gl = ang_gl_create(backend, err);
-        if (!run->gl) return false;
-        run->summary.gl_backend = ang_gl_backend(run->gl);
-        run->summary.gl_renderer = ang_gl_renderer(run->gl);
-        run->summary.gl_version = ang_gl_version(run->gl);
-    }
+    run->method = automatic ? NULL : ang_method_find(name);
+    if (!automatic && !run->method) return ang_fail(err, ANG_USAGE, "--method %s: there is no such method", name);
+    bool wants_gl = automatic ? backend != ANG_BACKEND_NONE : run->method->needs_gl;
+    if (wants_gl && !open_gl(run, backend, err)) return false;
+    if (automatic)
+        run->method = ang_method_choose(run->gl, run->volume, &run->picture.scene, &run->picture.render, &why);
+    ang_plan_use(&run->summary.plan, "%s: %s", run->method->name, run->method->title);
+    if (automatic) ang_plan_leave_out(&run->summary.plan, "other methods", "%s", why);
     double start = ang_now_ms();
     run->renderer = run->method->create(run->gl, run->volume, &run->picture.render, err);
     run->summary.upload_ms = ang_now_ms() - start;
@@ -112,7 +119,6 @@ static void note_empty(session *run) {
 /* How the first picture was made, for --explain and the JSON. */
 static bool explain(session *run, ang_error *err) {
     ang_plan *plan = &run->summary.plan;
-    ang_plan_use(plan, "%s: %s", run->method->name, run->method->title);
     if (!run->method->explain(run->renderer, &run->picture.scene, &run->picture.render, plan, err)) return false;
     if (!run->method->needs_gl) ang_plan_leave_out(plan, "OpenGL", "this method needs none");
     ang_plan_leave_out(plan, "window system", "headless");

@@ -1,11 +1,11 @@
 // Box-plane intersection in the vertex program: Rezk-Salama & Kolb 2005, sections 4 and 5, listing 1, in the robust form
 // of numerics.md. Vertices come from one static buffer; boxes are instances.
-layout(location = 0) in ivec2 slice_vertex; // which of the polygon's six points, which of the box's planes
+layout(location = 0) in ivec2 slice_vertex; // which of the polygon's six points, which of the box's groups of planes
 layout(location = 1) in vec3 box_lower;     // index space about the box's centre
 layout(location = 2) in vec3 box_upper;
 layout(location = 3) in vec3 box_owner_lower;
 layout(location = 4) in vec3 box_owner_upper;
-layout(location = 5) in ivec2 box_planes; // first plane, how many
+layout(location = 5) in ivec2 box_groups; // the first, how many
 
 uniform int vertex_sequence[64]; // nSequence: vertices in the paper's order for each front vertex
 uniform int edge_from[24];       // v1 and v2: four edges to try for each of the six points
@@ -14,9 +14,10 @@ uniform int slice_front;      // front vertex: bit 0 x upper, bit 1 y upper, bit
 uniform vec4 slice_gradient;  // depth of a place: gradient and constant
 uniform vec3 slice_pad_index; // index units in one mm across the faces of the box
 uniform vec2 slice_pad;       // mm by which boxes are widened: at depth 0, and more for each mm of depth
-uniform bool slice_reverse;   // from the last plane to the first
+uniform vec3 slice_widen;     // index units by which boxes are widened for the other planes of a group
+uniform bool slice_reverse;   // from the last group to the first
 
-flat out int slice_plane;
+flat out int slice_which; // group
 flat out vec3 slice_owner_lower;
 flat out vec3 slice_owner_upper;
 
@@ -36,13 +37,14 @@ float corner_depth(int vertex, float front, vec3 rise) {
 }
 
 void main() {
-    bool spare = slice_vertex.y >= box_planes.y;
-    slice_plane = box_planes.x + (slice_reverse ? box_planes.y - 1 - slice_vertex.y : slice_vertex.y);
+    bool spare = slice_vertex.y >= box_groups.y;
+    slice_which = box_groups.x + (slice_reverse ? box_groups.y - 1 - slice_vertex.y : slice_vertex.y);
     slice_owner_lower = box_owner_lower;
     slice_owner_upper = box_owner_upper;
-    float depth = slice_depth(slice_plane);
+    // The polygon lies in the middle of its group.
+    float depth = slice_depth(slice_which * slice_group) + 0.5 * float(slice_group - 1) * slice_distance;
     // The fragments decide what belongs to the box: its polygon only has to cover them.
-    vec3 pad = (slice_pad.x + slice_pad.y * depth) * slice_pad_index;
+    vec3 pad = (slice_pad.x + slice_pad.y * depth) * slice_pad_index + slice_widen;
     vec3 lower = box_lower - pad;
     vec3 upper = box_upper + pad;
     vec3 rise = abs(slice_gradient.xyz) * (upper - lower);
@@ -63,5 +65,5 @@ void main() {
             break;
         }
     }
-    gl_Position = spare ? vec4(2.0, 2.0, 2.0, 1.0) : slice_project(place, slice_plane);
+    gl_Position = spare ? vec4(2.0, 2.0, 2.0, 1.0) : slice_project(place, slice_which);
 }

@@ -164,7 +164,7 @@ static bool append_parts(traversal *t, const ang_slice_box *box, bool counting, 
             part.upper = ang_vec3_along(part.upper, t->cut->margin, 0.5);
         }
         if (!find_planes(t, 0, &part)) continue;
-        *polygons += part.end - part.begin;
+        *polygons += ang_slice_groups(part.begin, part.end, t->cut->group);
         if (!counting && !append(t, &part)) return false;
     }
     return true;

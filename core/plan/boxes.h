@@ -25,7 +25,7 @@ typedef struct ang_slice_boxes {
     size_t nodes;        /* of the octree that the boxes are, or are parts of */
     size_t leaves_total; /* of the octree */
     size_t leaves_drawn; /* leaves inside the boxes */
-    double polygons;     /* planes summed over the boxes */
+    double polygons;     /* groups of planes summed over the boxes */
     double samples;      /* estimate of fragments within the picture and out of it */
 } ang_slice_boxes;
 
@@ -37,6 +37,7 @@ typedef struct ang_slice_cut {
     ang_vec3 margin;                  /* index units that a ray moves from one plane to the next, at most: boxes are cut
                                          this far from the faces of the clip box, so that few samples need what only
                                          those at faces do, and those near them reach half as far again */
+    int group;                        /* planes that share a polygon; >= 1 */
     double polygon_cost;              /* what a polygon costs, in fragments: descent stops where boxes would cost more
                                          polygons than they spare fragments (sections 6 and 7) */
 } ang_slice_cut;

@@ -26,4 +26,9 @@ void ang_slice_depths(const ang_slice_planes *planes, ang_vec3 lower, ang_vec3 u
 /* The planes [*begin, *end) that meet depths least..greatest, one more on a side where rounding leaves it open. */
 void ang_slice_range(const ang_slice_planes *planes, double least, double greatest, int *begin, int *end);
 
+/* How many groups of `group` planes, counted from plane 0, the planes [begin, end) lie in. */
+static inline int ang_slice_groups(int begin, int end, int group) {
+    return end > begin ? (end - 1) / group - begin / group + 1 : 0;
+}
+
 #endif

@@ -18,7 +18,9 @@ typedef struct ang_render_options {
                          */
     bool no_skip;       /* draw what is invisible too; default false */
     ang_proxy proxy;    /* slicing: how polygons are cut; default the vertex program */
-    int bricks[3]; /* slicing: bricks along each axis, all visible ones drawn; 0: octree leaves, drawn where it pays */
+    int bricks[3];  /* slicing: bricks along each axis, all visible ones drawn; 0: octree leaves, drawn where it pays */
+    int pass_steps; /* slicing: planes that a fragment composites before it blends: 1, 2 or 4; default 0: as many as pay
+                     */
     bool show_bricks;  /* slicing: draw the edges of the boxes onto the picture; default false */
     size_t gpu_memory; /* bytes of textures that the volume may take; default 0: what OpenGL gives */
     int threads;       /* 0: all */
@@ -66,6 +68,12 @@ typedef struct ang_method {
 /* All methods, NULL at the end; and the one of a name or NULL. */
 const ang_method *const *ang_methods(void);
 const ang_method *ang_method_find(const char *name);
+
+/* What --method auto takes, and why, in words: the reference without OpenGL; slicing where the volume must be drawn in
+ * bricks, and where skipping and early termination pay; else the single pass, whose samples are the cheapest. `gl` may
+ * be NULL. */
+const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
+                                    const ang_render_options *options, const char **why);
 
 extern const ang_method ang_method_reference;
 extern const ang_method ang_method_singlepass;

@@ -1,5 +1,7 @@
 #include "core/render/method.h"
 
+#include "core/render/volume_texture.h"
+
 #include <string.h>
 
 static const ang_method *const methods[] = {&ang_method_singlepass, &ang_method_slicing, &ang_method_reference, NULL};
@@ -10,4 +12,18 @@ const ang_method *ang_method_find(const char *name) {
     for (size_t i = 0; methods[i]; i++)
         if (strcmp(methods[i]->name, name) == 0) return methods[i];
     return NULL;
+}
+
+const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
+                                    const ang_render_options *options, const char **why) {
+    *why = "there is no OpenGL";
+    if (!gl) return &ang_method_reference;
+    *why = "the volume does not fit into one texture";
+    size_t bytes = ang_volume_count(volume) * sizeof *volume->data;
+    if ((options->gpu_memory && bytes > options->gpu_memory) || !ang_volume_texture_fits(gl, volume->dims, NULL))
+        return &ang_method_slicing;
+    *why = "most of the volume can be skipped in modes dvr and iso";
+    if (scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO) return &ang_method_slicing;
+    *why = "every sample counts in this mode, and those of a single pass are the cheapest";
+    return &ang_method_singlepass;
 }

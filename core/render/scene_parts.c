@@ -73,6 +73,14 @@ void ang_parts_classification(ang_shader_source *source, const ang_scene *scene)
     }
 }
 
+void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table, double length) {
+    ANG_SHADER_ADD(source, opacity_series);
+    if (table->greatest * length < 0.49)
+        ANG_SHADER_ADD(source, opacity_thin);
+    else
+        ANG_SHADER_ADD(source, opacity_any);
+}
+
 void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual) {
     if (!ang_scene_needs_weight(scene, volume))
         ANG_SHADER_ADD(source, weight_one);

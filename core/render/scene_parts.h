@@ -26,6 +26,9 @@ void ang_parts_field(ang_shader_source *source, bool manual);
 void ang_parts_classification(ang_shader_source *source, const ang_scene *scene);
 void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual);
 
+/* opacity_of for samples that stand for at most `length` mm of a ray: no exponential where none is thick enough. */
+void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table, double length);
+
 /* ray.glsl */
 void ang_uniforms_ray(unsigned program, const ang_ray_frame *frame);
 /* field*.glsl, trilinear.glsl and weight_*.glsl; binds the textures. */

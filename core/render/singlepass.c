@@ -56,8 +56,17 @@ static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_rend
     return renderer;
 }
 
+/* Millimetres between samples. */
+static double step_used(const ang_volume *volume, const ang_render_options *options) {
+    double wanted = options->step_voxels * ang_volume_smallest_spacing(volume);
+    return fmax(wanted, 2 * ang_volume_half_diagonal(volume) / most_samples);
+}
+
 /* Only what the scene needs is in the program. */
-static ang_shader_source compose(const ang_scene *scene, const ang_volume *volume, bool manual, bool counting) {
+static ang_shader_source compose(const ang_renderer *renderer, const ang_scene *scene,
+                                 const ang_render_options *options, bool counting) {
+    const ang_volume *volume = renderer->volume;
+    bool manual = options->manual_filter;
     ang_shader_source source = {.count = 0};
     ANG_SHADER_ADD(&source, version);
     ANG_SHADER_ADD(&source, ray);
@@ -66,7 +75,7 @@ static ang_shader_source compose(const ang_scene *scene, const ang_volume *volum
     ang_parts_classification(&source, scene);
     switch (scene->mode) {
     case ANG_MODE_DVR:
-        ANG_SHADER_ADD(&source, opacity);
+        ang_parts_opacity(&source, &renderer->table, 1.01 * step_used(volume, options));
         ANG_SHADER_ADD(&source, march_dvr);
         break;
     case ANG_MODE_MIP:
@@ -111,14 +120,8 @@ static GLuint prepare(ang_renderer *renderer, const ang_scene *scene, const ang_
                            counting ? ANG_TARGET_COUNTS : 0, err))
         return 0;
     ang_shader_source vertex = compose_vertex();
-    ang_shader_source fragment = compose(scene, volume, options->manual_filter, counting);
+    ang_shader_source fragment = compose(renderer, scene, options, counting);
     return ang_programs_get(&renderer->programs, "singlepass", &vertex, &fragment, err);
-}
-
-/* Millimetres between samples. */
-static double step_used(const ang_volume *volume, const ang_render_options *options) {
-    double wanted = options->step_voxels * ang_volume_smallest_spacing(volume);
-    return fmax(wanted, 2 * ang_volume_half_diagonal(volume) / most_samples);
 }
 
 static void set_uniforms(const ang_renderer *renderer, GLuint program, const ang_scene *scene,
@@ -185,15 +188,18 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
 
 static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
                     ang_error *err) {
-    if (!ang_scene_check(scene, err)) return false;
     const ang_volume *volume = renderer->volume;
+    if (!ang_scene_check(scene, err)) return false;
+    if (ang_scene_needs_table(scene) &&
+        !ang_table_texture_update(&renderer->table, renderer->gl, scene->transfer, volume, err))
+        return false;
     ang_plan_use(plan, "one 3D texture of 16 bits for the whole volume");
     ang_scene_explain(plan, scene, volume);
     ang_plan_leave_out(plan, "skipping of invisible blocks", "this method is the baseline and skips nothing");
     if (scene->mode == ANG_MODE_DVR && !(options->termination < 1))
         ang_plan_leave_out(plan, "early termination", "--no-termination");
     ang_shader_source vertex = compose_vertex();
-    ang_shader_source fragment = compose(scene, volume, options->manual_filter, false);
+    ang_shader_source fragment = compose(renderer, scene, options, false);
     ang_shader_explain(plan, "rays", &vertex, &fragment, ang_scene_lookups(scene, volume));
     return true;
 }

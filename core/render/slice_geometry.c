@@ -11,7 +11,7 @@
 enum {
     POINTS = 6,         /* of a polygon: Rezk-Salama & Kolb, section 4 */
     FAN_INDICES = 12,   /* four triangles */
-    STRETCH_PLANES = 64 /* of an instance; boxes with more are several instances */
+    STRETCH_GROUPS = 64 /* groups of planes of an instance; boxes with more are several instances */
 };
 
 typedef struct instance {
@@ -21,7 +21,7 @@ typedef struct instance {
 
 typedef struct vertex {
     float place[3];
-    int32_t plane;
+    int32_t group;
     float owner_lower[3], owner_upper[3];
 } vertex;
 
@@ -39,16 +39,16 @@ typedef struct builder {
 } builder;
 
 static void make_static(ang_slice_geometry *geometry) {
-    uint8_t corners[STRETCH_PLANES * POINTS][2];
-    uint16_t indices[STRETCH_PLANES * FAN_INDICES];
-    for (int plane = 0; plane < STRETCH_PLANES; plane++) {
+    uint8_t corners[STRETCH_GROUPS * POINTS][2];
+    uint16_t indices[STRETCH_GROUPS * FAN_INDICES];
+    for (int group = 0; group < STRETCH_GROUPS; group++) {
         for (int point = 0; point < POINTS; point++) {
-            corners[plane * POINTS + point][0] = (uint8_t)point;
-            corners[plane * POINTS + point][1] = (uint8_t)plane;
+            corners[group * POINTS + point][0] = (uint8_t)point;
+            corners[group * POINTS + point][1] = (uint8_t)group;
         }
         for (int i = 0; i < FAN_INDICES; i++) {
             static const int fan[FAN_INDICES] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5};
-            indices[plane * FAN_INDICES + i] = (uint16_t)(plane * POINTS + fan[i]);
+            indices[group * FAN_INDICES + i] = (uint16_t)(group * POINTS + fan[i]);
         }
     }
     glGenVertexArrays(1, &geometry->box_vertices);
@@ -90,7 +90,7 @@ static void make_arrays(ang_slice_geometry *geometry) {
     glGenBuffers(1, &geometry->polygons);
     glBindBuffer(GL_ARRAY_BUFFER, geometry->polygons);
     float_attribute(0, sizeof(vertex), offsetof(vertex, place), 0);
-    int_attribute(1, 1, sizeof(vertex), offsetof(vertex, plane), 0);
+    int_attribute(1, 1, sizeof(vertex), offsetof(vertex, group), 0);
     float_attribute(2, sizeof(vertex), offsetof(vertex, owner_lower), 0);
     float_attribute(3, sizeof(vertex), offsetof(vertex, owner_upper), 0);
     glBindVertexArray(0);
@@ -129,20 +129,20 @@ static void store(float out[3], ang_vec3 v) {
     out[2] = (float)v.z;
 }
 
-/* Stretches of 5 to 8 planes share draws, of 9 to 16, ...: fewer vertices are wasted than draws are saved. */
-static int planes_class(int planes) {
+/* Stretches of 5 to 8 groups share draws, of 9 to 16, ...: fewer vertices are wasted than draws are saved. */
+static int size_class(int groups) {
     int size = 4;
-    while (size < planes) size *= 2;
+    while (size < groups) size *= 2;
     return size;
 }
 
 /* The draw to which the next polygons of this box belong: the last one, or a new one. */
-static ang_slice_draw *open_draw(builder *b, const ang_slice_box *box, const ang_slice_box *before, int planes,
+static ang_slice_draw *open_draw(builder *b, const ang_slice_box *box, const ang_slice_box *before, int groups,
                                  bool faces) {
     ang_slice_geometry *geometry = b->geometry;
     ang_slice_draw *last = geometry->draws ? &geometry->draw[geometry->draws - 1] : NULL;
     if (last && last->faces == faces && last->samples < b->order->most_samples &&
-        planes_class(last->planes) == planes_class(planes) &&
+        size_class(last->groups) == size_class(groups) &&
         (before == box || b->order->same_texture(b->order->context, before, box)))
         return last;
     if (geometry->draws == geometry->capacity) {
@@ -174,29 +174,36 @@ static bool add_instance(builder *b, const ang_slice_box *box, int begin, int en
     return true;
 }
 
+/* Index units by which a polygon in the middle of its group must reach beyond the box to cover its other planes. */
+static ang_vec3 widening(const ang_slice_order *order) {
+    return ang_vec3_scale(order->margin, 0.5 * (order->group - 1));
+}
+
 static double pad_at(const builder *b, double depth) { return b->pad[0] + b->pad[1] * depth; }
 
-/* The polygons of planes [begin, end) in the box, cut here. */
+/* The polygons of groups [begin, end) in the box, cut here. */
 static bool add_polygons(builder *b, const ang_slice_box *box, int begin, int end) {
     double least, greatest;
     ang_slice_depths(b->planes, box->lower, box->upper, &least, &greatest);
     double pad = fmax(pad_at(b, least), pad_at(b, greatest));
     ang_vec3 wider = {pad * b->pad_index[0], pad * b->pad_index[1], pad * b->pad_index[2]};
+    wider = ang_vec3_add(wider, widening(b->order));
     ang_slicer slicer;
     ang_slicer_make(&slicer, ang_vec3_sub(box->lower, wider), ang_vec3_add(box->upper, wider), b->planes->gradient);
     float owner_lower[3], owner_upper[3];
     store_owner(b->frame, box, owner_lower, owner_upper);
     for (int i = begin; i < end; i++) {
-        int plane = b->order->back_to_front ? end - 1 - (i - begin) : i;
+        int group = b->order->back_to_front ? end - 1 - (i - begin) : i;
         ang_vec3 triangles[ANG_PROXY_MOST_TRIANGLES][3];
-        double depth = b->planes->first + plane * b->planes->distance - b->planes->offset;
+        double middle = group * b->order->group + 0.5 * (b->order->group - 1);
+        double depth = b->planes->first + middle * b->planes->distance - b->planes->offset;
         int count = ang_proxy_slice(&b->geometry->tables, b->order->proxy, &slicer, depth, triangles);
         if (count == 0) continue;
         vertex *out = grow(b, 3 * (size_t)count);
         if (!out) return false;
         for (int v = 0; v < 3 * count; v++) {
             store(out[v].place, triangles[v / 3][v % 3]);
-            out[v].plane = plane;
+            out[v].group = group;
             memcpy(out[v].owner_lower, owner_lower, sizeof owner_lower);
             memcpy(out[v].owner_upper, owner_upper, sizeof owner_upper);
         }
@@ -205,21 +212,23 @@ static bool add_polygons(builder *b, const ang_slice_box *box, int begin, int en
 }
 
 static bool add_box(builder *b, const ang_slice_box *box, const ang_slice_box *before) {
-    int planes = box->end - box->begin, stretches = (planes + STRETCH_PLANES - 1) / STRETCH_PLANES;
+    int group = b->order->group, first = box->begin / group, groups = ang_slice_groups(box->begin, box->end, group);
+    int last = (b->planes->count - 1) / group;
+    int stretches = (groups + STRETCH_GROUPS - 1) / STRETCH_GROUPS;
     for (int i = 0; i < stretches; i++) {
         int stretch = b->order->back_to_front ? stretches - 1 - i : i;
-        int begin = box->begin + stretch * STRETCH_PLANES;
-        int end = begin + STRETCH_PLANES < box->end ? begin + STRETCH_PLANES : box->end;
+        int begin = first + stretch * STRETCH_GROUPS;
+        int end = begin + STRETCH_GROUPS < first + groups ? begin + STRETCH_GROUPS : first + groups;
         /* The first and the last plane have a neighbour on one side only. */
-        bool faces = box->faces || begin == 0 || end == b->planes->count;
+        bool faces = box->faces || begin == 0 || end > last;
         ang_slice_draw *draw = open_draw(b, box, i > 0 ? box : before, end - begin, faces);
         if (!draw) return false;
         bool ok = b->order->proxy == ANG_PROXY_VERTEX_PROGRAM ? add_instance(b, box, begin, end)
                                                               : add_polygons(b, box, begin, end);
         if (!ok) return false;
         draw->count = (int)b->count - draw->first;
-        if (end - begin > draw->planes) draw->planes = end - begin;
-        draw->samples += box->samples * (end - begin) / planes;
+        if (end - begin > draw->groups) draw->groups = end - begin;
+        draw->samples += box->samples * (end - begin) / groups;
         draw->polygons += (uint64_t)(end - begin);
     }
     return true;
@@ -289,8 +298,18 @@ void ang_slice_geometry_destroy(ang_slice_geometry *geometry) {
     *geometry = (ang_slice_geometry){0};
 }
 
-void ang_slice_geometry_parts(ang_proxy proxy, ang_shader_source *vertex) {
-    ANG_SHADER_ADD(vertex, slice_planes);
+void ang_slice_planes_parts(int group, ang_shader_source *source) {
+    if (group == 4)
+        ANG_SHADER_ADD(source, slice_group_4);
+    else if (group == 2)
+        ANG_SHADER_ADD(source, slice_group_2);
+    else
+        ANG_SHADER_ADD(source, slice_group_1);
+    ANG_SHADER_ADD(source, slice_planes);
+}
+
+void ang_slice_geometry_parts(ang_proxy proxy, int group, ang_shader_source *vertex) {
+    ang_slice_planes_parts(group, vertex);
     ANG_SHADER_ADD(vertex, slice_project);
     if (proxy == ANG_PROXY_VERTEX_PROGRAM)
         ANG_SHADER_ADD(vertex, slice_box);
@@ -310,6 +329,7 @@ void ang_slice_geometry_uniforms(const ang_slice_geometry *geometry, unsigned pr
     ang_uniform_int(program, "slice_front", front);
     ang_uniform_vec3(program, "slice_pad_index", (ang_vec3){b.pad_index[0], b.pad_index[1], b.pad_index[2]});
     glProgramUniform2f(program, glGetUniformLocation(program, "slice_pad"), (float)b.pad[0], (float)b.pad[1]);
+    ang_uniform_vec3(program, "slice_widen", widening(order));
     ang_uniform_int(program, "slice_reverse", order->back_to_front);
     ang_uniform_ints(program, "vertex_sequence", &geometry->tables.sequence[0][0], 64);
     ang_uniform_ints(program, "edge_from", geometry->tables.v1, 24);
@@ -319,7 +339,7 @@ void ang_slice_geometry_uniforms(const ang_slice_geometry *geometry, unsigned pr
 void ang_slice_geometry_draw(const ang_slice_geometry *geometry, const ang_slice_draw *draw, ang_proxy proxy) {
     if (proxy == ANG_PROXY_VERTEX_PROGRAM) {
         glBindVertexArray(geometry->box_vertices);
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, FAN_INDICES * draw->planes, GL_UNSIGNED_SHORT, NULL,
+        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, FAN_INDICES * draw->groups, GL_UNSIGNED_SHORT, NULL,
                                             draw->count, (GLuint)draw->first);
     } else {
         glBindVertexArray(geometry->poly_vertices);

@@ -12,7 +12,7 @@
 typedef struct ang_slice_draw {
     int level, node[3]; /* the first of its boxes: which texture */
     int first, count;   /* instances, or vertices where the CPU cut the polygons */
-    int planes;         /* vertex program: planes of the instance that has the most */
+    int groups;         /* vertex program: groups of planes of the instance that has the most */
     bool faces;     /* a box is so near to a face of the clip box that a sample may be the first or last of its ray */
     double samples; /* estimate: fragments */
     uint64_t polygons;
@@ -33,6 +33,7 @@ typedef struct ang_slice_geometry {
 typedef struct ang_slice_order {
     ang_proxy proxy;
     bool back_to_front;
+    int group;           /* planes that share a polygon */
     ang_vec3 margin;     /* index units that a ray moves from one plane to the next, at most */
     double most_samples; /* a draw takes no more than about this many, so that it can be interrupted or followed by a
                             pass that finishes pixels */
@@ -48,8 +49,10 @@ bool ang_slice_geometry_make(ang_slice_geometry *geometry, ang_gl *gl, const ang
                              ang_error *err);
 void ang_slice_geometry_destroy(ang_slice_geometry *geometry);
 
+/* slice_planes.glsl for groups of 1, 2 or 4 planes. */
+void ang_slice_planes_parts(int group, ang_shader_source *source);
 /* The vertex shader's parts of this proxy, and the uniforms of a program with them. */
-void ang_slice_geometry_parts(ang_proxy proxy, ang_shader_source *vertex);
+void ang_slice_geometry_parts(ang_proxy proxy, int group, ang_shader_source *vertex);
 void ang_slice_geometry_uniforms(const ang_slice_geometry *geometry, unsigned program, const ang_slice_planes *planes,
                                  const ang_ray_frame *frame, const ang_clip_space *space, const ang_slice_order *order);
 

@@ -9,24 +9,37 @@ typedef struct sources {
     ang_shader_source vertex, fragment;
 } sources;
 
+int ang_slice_group(const ang_scene *scene, const ang_render_options *options) {
+    if (scene->mode == ANG_MODE_ISO) return 1; /* a hit must be told from the next by the depth test */
+    int wanted = options->pass_steps;
+    /* Fewer and larger polygons and fewer blends; measured on llvmpipe, where shading leaves no registers for two. */
+    if (wanted == 0) wanted = ang_scene_needs_phong(scene) ? 1 : 2;
+    return wanted >= 4 ? 4 : wanted >= 2 ? 2 : 1;
+}
+
 bool ang_slice_needs_resolve(const ang_scene *scene) {
     return scene->mode == ANG_MODE_MIP || scene->mode == ANG_MODE_MINIP || scene->mode == ANG_MODE_MEAN;
 }
 
-static void compose_value(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual) {
+static void compose_value(ang_shader_source *source, bool faces, const ang_slice_recipe *recipe) {
+    const ang_scene *scene = recipe->scene;
+    bool manual = recipe->options->manual_filter;
     ang_parts_field(source, manual);
     switch (scene->mode) {
     case ANG_MODE_DVR:
         ang_parts_classification(source, scene);
-        ANG_SHADER_ADD(source, opacity);
+        /* The first and the last sample stand for more, the only one of a ray for almost two steps. */
+        ang_parts_opacity(source, recipe->table, (faces ? 2 : 1) * recipe->length);
         ANG_SHADER_ADD(source, slice_dvr);
         break;
     case ANG_MODE_MIP:
+        ANG_SHADER_ADD(source, slice_mip);
+        break;
     case ANG_MODE_MINIP:
-        ANG_SHADER_ADD(source, slice_extreme);
+        ANG_SHADER_ADD(source, slice_minip);
         break;
     case ANG_MODE_MEAN:
-        ang_parts_weight(source, scene, volume, manual);
+        ang_parts_weight(source, scene, recipe->volume, manual);
         ANG_SHADER_ADD(source, slice_mean);
         break;
     case ANG_MODE_ISO:
@@ -36,23 +49,29 @@ static void compose_value(ang_shader_source *source, const ang_scene *scene, con
     }
 }
 
-static void compose_slices(sources *to, bool faces, const ang_scene *scene, const ang_volume *volume,
-                           const ang_render_options *options, bool early, bool counting) {
-    ang_slice_geometry_parts(options->proxy, &to->vertex);
-    if (early) ANG_SHADER_ADD(&to->fragment, early);
+static void compose_slices(sources *to, bool faces, const ang_slice_recipe *recipe) {
+    int group = ang_slice_group(recipe->scene, recipe->options);
+    bool counting = recipe->counting;
+    ang_slice_geometry_parts(recipe->options->proxy, group, &to->vertex);
+    if (recipe->early) ANG_SHADER_ADD(&to->fragment, early);
     ANG_SHADER_ADD(&to->fragment, ray);
-    ANG_SHADER_ADD(&to->fragment, slice_planes);
+    ang_slice_planes_parts(group, &to->fragment);
     ANG_SHADER_ADD(&to->fragment, slice_sample);
     if (faces)
         ANG_SHADER_ADD(&to->fragment, slice_faces);
     else
         ANG_SHADER_ADD(&to->fragment, slice_inner);
     ANG_SHADER_ADD(&to->fragment, slice_owned);
-    compose_value(&to->fragment, scene, volume, options->manual_filter);
-    if (counting)
-        ANG_SHADER_ADD(&to->fragment, slice_picture_counted);
+    compose_value(&to->fragment, faces, recipe);
+    bool one = group == 1;
+    if (one && counting)
+        ANG_SHADER_ADD(&to->fragment, slice_one_counted);
+    else if (one)
+        ANG_SHADER_ADD(&to->fragment, slice_one);
+    else if (counting)
+        ANG_SHADER_ADD(&to->fragment, slice_several_counted);
     else
-        ANG_SHADER_ADD(&to->fragment, slice_picture);
+        ANG_SHADER_ADD(&to->fragment, slice_several);
 }
 
 static void compose_resolve(ang_shader_source *source, const ang_scene *scene) {
@@ -65,15 +84,14 @@ static void compose_resolve(ang_shader_source *source, const ang_scene *scene) {
     ANG_SHADER_ADD(source, resolve);
 }
 
-static sources compose(ang_slice_pass pass, const ang_scene *scene, const ang_volume *volume,
-                       const ang_render_options *options, bool early, bool counting) {
+static sources compose(ang_slice_pass pass, const ang_slice_recipe *recipe) {
     sources to = {.vertex = {.count = 0}};
     ANG_SHADER_ADD(&to.vertex, version);
     ANG_SHADER_ADD(&to.fragment, version);
     switch (pass) {
     case ANG_SLICE_INNER:
     case ANG_SLICE_FACES:
-        compose_slices(&to, pass == ANG_SLICE_FACES, scene, volume, options, early, counting);
+        compose_slices(&to, pass == ANG_SLICE_FACES, recipe);
         break;
     case ANG_SLICE_FINISH:
         ANG_SHADER_ADD(&to.vertex, triangle);
@@ -81,7 +99,7 @@ static sources compose(ang_slice_pass pass, const ang_scene *scene, const ang_vo
         break;
     case ANG_SLICE_RESOLVE:
         ANG_SHADER_ADD(&to.vertex, triangle);
-        compose_resolve(&to.fragment, scene);
+        compose_resolve(&to.fragment, recipe->scene);
         break;
     case ANG_SLICE_EDGES:
         ANG_SHADER_ADD(&to.vertex, edge);
@@ -91,19 +109,17 @@ static sources compose(ang_slice_pass pass, const ang_scene *scene, const ang_vo
     return to;
 }
 
-unsigned ang_slice_program(ang_programs *programs, ang_slice_pass pass, const ang_scene *scene,
-                           const ang_volume *volume, const ang_render_options *options, bool early, bool counting,
+unsigned ang_slice_program(ang_programs *programs, ang_slice_pass pass, const ang_slice_recipe *recipe,
                            ang_error *err) {
-    sources made = compose(pass, scene, volume, options, early, counting);
+    sources made = compose(pass, recipe);
     return ang_programs_get(programs, "slicing", &made.vertex, &made.fragment, err);
 }
 
-void ang_slice_explain_pass(ang_plan *plan, ang_slice_pass pass, const ang_scene *scene, const ang_volume *volume,
-                            const ang_render_options *options, bool early) {
+void ang_slice_explain_pass(ang_plan *plan, ang_slice_pass pass, const ang_slice_recipe *recipe) {
     static const char *const names[] = {"slices", "slices at the faces", "finished pixels", "values to grey",
                                         "edges of boxes"};
-    sources made = compose(pass, scene, volume, options, early, false);
+    sources made = compose(pass, recipe);
     bool slices = pass == ANG_SLICE_INNER || pass == ANG_SLICE_FACES;
-    int lookups = slices ? ang_scene_lookups(scene, volume) : pass == ANG_SLICE_EDGES ? 0 : 1;
+    int lookups = slices ? ang_scene_lookups(recipe->scene, recipe->volume) : pass == ANG_SLICE_EDGES ? 0 : 1;
     ang_shader_explain(plan, names[pass], &made.vertex, &made.fragment, lookups);
 }

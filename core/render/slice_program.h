@@ -5,6 +5,7 @@
 #include "core/plan/plan.h"
 #include "core/render/method.h"
 #include "core/render/program.h"
+#include "core/render/table_texture.h"
 
 /* The passes over a picture. */
 typedef enum ang_slice_pass {
@@ -15,17 +16,27 @@ typedef enum ang_slice_pass {
     ANG_SLICE_EDGES,   /* --show-bricks */
 } ang_slice_pass;
 
+/* Planes that a fragment composites before it blends: 1, 2 or 4, those asked for or as many as pay. */
+int ang_slice_group(const ang_scene *scene, const ang_render_options *options);
+
 /* Whether the scene's mode needs the pass ANG_SLICE_RESOLVE: what it accumulates is no colour. */
 bool ang_slice_needs_resolve(const ang_scene *scene);
 
-/* The program of a pass; `counting` adds a second output, `early` forces the depth test before the shader. 0 with
- * ANG_GL or ANG_LIMIT. */
-unsigned ang_slice_program(ang_programs *programs, ang_slice_pass pass, const ang_scene *scene,
-                           const ang_volume *volume, const ang_render_options *options, bool early, bool counting,
-                           ang_error *err);
+/* What the programs of one picture are made for. Borrows all. */
+typedef struct ang_slice_recipe {
+    const ang_scene *scene;
+    const ang_volume *volume;
+    const ang_render_options *options;
+    const ang_table_texture *table;
+    double length; /* mm of a ray from one plane to the next, at most */
+    bool early;    /* the depth test comes before the shader */
+    bool counting; /* a second output counts samples */
+} ang_slice_recipe;
+
+/* The program of a pass; 0 with ANG_GL or ANG_LIMIT. */
+unsigned ang_slice_program(ang_programs *programs, ang_slice_pass pass, const ang_slice_recipe *recipe, ang_error *err);
 
 /* Adds the pass with its parts and lookups to the plan. */
-void ang_slice_explain_pass(ang_plan *plan, ang_slice_pass pass, const ang_scene *scene, const ang_volume *volume,
-                            const ang_render_options *options, bool early);
+void ang_slice_explain_pass(ang_plan *plan, ang_slice_pass pass, const ang_slice_recipe *recipe);
 
 #endif

@@ -21,7 +21,7 @@ enum { UNIT_ACCUMULATED = ANG_UNIT_FREE };
 static const double most_reach = 1 << 20;
 
 /* What a polygon costs in fragments, without and with shading: measured on llvmpipe (docs/papers.md). */
-static const double polygon_cost = 200, polygon_cost_shaded = 120;
+static const double polygon_cost = 300, polygon_cost_shaded = 120;
 /* Work is handed to OpenGL in pieces of about this many fragments, so that it can be interrupted... */
 static const double piece_samples = 8e6;
 /* ... and pixels that are finished are looked for about this often in a picture, but not for less than this many
@@ -51,6 +51,8 @@ typedef struct slicing {
     ang_clip_space space;
     ang_slice_planes planes;
     ang_vec3 margin; /* index units: see step_margin */
+    double length;   /* mm of a ray from one plane to the next, at most */
+    int group;       /* planes that share a polygon */
     ang_visibility visibility;
     ang_brick_needs needs;
     ang_slice_order order;
@@ -94,17 +96,22 @@ static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_rend
     return renderer;
 }
 
-/* Index units along each axis that a ray moves from one plane to the next, at most. */
-static ang_vec3 step_margin(const ang_scene *scene, const ang_ray_frame *frame, const ang_slice_planes *planes) {
-    double least_cosine = 1, margin[3];
+/* Millimetres that a ray moves from one plane to the next, at most. */
+static double step_length(const ang_scene *scene, const ang_ray_frame *frame, const ang_slice_planes *planes) {
+    double least_cosine = 1;
     for (int corner = 0; corner < 4; corner++) {
         ang_ray ray = ang_ray_through(frame, corner & 1 ? scene->width : 0, corner & 2 ? scene->height : 0);
         least_cosine = fmin(least_cosine, ang_vec3_dot(ray.direction_mm, frame->axis_mm));
     }
+    return 1.01 * planes->distance / fmax(least_cosine, 1e-3);
+}
+
+/* The same in index units along each axis. */
+static ang_vec3 step_margin(const ang_ray_frame *frame, double length) {
+    double margin[3];
     for (int axis = 0; axis < 3; axis++) {
         const double *row = frame->to_index.m[axis];
-        double per_mm = sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
-        margin[axis] = 1.01 * per_mm * planes->distance / fmax(least_cosine, 1e-3);
+        margin[axis] = length * sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
     }
     return (ang_vec3){margin[0], margin[1], margin[2]};
 }
@@ -128,13 +135,6 @@ static bool prepare_octree(ang_renderer *renderer, const ang_render_options *opt
     return renderer->octree != NULL;
 }
 
-/* The greatest extinction that any value of the volume has. */
-static double greatest_extinction(const ang_transfer_tables *tables) {
-    double greatest = 0;
-    for (int i = 0; i < 2 * tables->intervals; i++) greatest = fmax(greatest, tables->entries[4 * i + 3]);
-    return greatest;
-}
-
 static void decide_skipping(const ang_renderer *renderer, const ang_render_options *options, slicing *s) {
     s->why_no_skip = NULL;
     if (options->no_skip)
@@ -156,7 +156,7 @@ static void decide_finishing(const ang_renderer *renderer, const ang_scene *scen
     } else if (!(options->termination < 1)) {
         s->why_no_finish = "--no-termination";
     } else {
-        double depth = greatest_extinction(renderer->table.tables) * 2 * ang_volume_half_diagonal(renderer->volume);
+        double depth = renderer->table.greatest * 2 * ang_volume_half_diagonal(renderer->volume);
         if (-expm1(-depth) < options->termination)
             s->why_no_finish = "no ray can reach the threshold";
         else if (renderer->boxes.samples < finish_least * scene->width * scene->height)
@@ -173,6 +173,8 @@ static void decide_order(const ang_renderer *renderer, const ang_scene *scene, c
                          slicing *s) {
     s->order = (ang_slice_order){.proxy = options->proxy,
                                  .back_to_front = scene->mode == ANG_MODE_DVR && !s->finishes,
+                                 .group = s->group,
+                                 .margin = s->margin,
                                  .most_samples = piece_samples,
                                  .same_texture = same_texture,
                                  .context = &renderer->store};
@@ -199,18 +201,21 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     s->visibility = ang_visibility_make(volume, scene, renderer->table.tables);
     s->needs.weight = ang_scene_needs_weight(scene, volume);
     s->needs.reach = ang_scene_needs_phong(scene);
-    s->margin = step_margin(scene, &s->frame, &s->planes);
+    s->length = step_length(scene, &s->frame, &s->planes);
+    s->margin = step_margin(&s->frame, s->length);
     if (scene->mode == ANG_MODE_ISO)
         s->needs.reach += (int)fmin(ceil(fmax(s->margin.x, fmax(s->margin.y, s->margin.z))), most_reach);
     if (!prepare_octree(renderer, options, s, err) ||
         !ang_brick_store_arrange(&renderer->store, renderer->octree, s->needs, err))
         return false;
     decide_skipping(renderer, options, s);
+    s->group = ang_slice_group(scene, options);
     bool shaded = ang_scene_needs_phong(scene);
     ang_slice_cut cut = {.visibility = s->skips ? &s->visibility : NULL,
                          .to_leaves = options->bricks[0] > 0,
                          .top_level = ang_brick_store_level(&renderer->store),
                          .margin = s->margin,
+                         .group = s->group,
                          .polygon_cost = shaded ? polygon_cost_shaded : polygon_cost};
     if (!ang_slice_boxes_make(&renderer->boxes, renderer->octree, &s->frame, &s->planes, &s->space, &cut, err))
         return false;
@@ -302,30 +307,28 @@ typedef struct programs {
     GLuint finish, resolve, edges;
 } programs;
 
-static bool get_programs(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
-                         const slicing *s, bool counting, programs *out, ang_error *err) {
-    ang_programs *cache = &renderer->programs;
-    *out = (programs){0};
-    const ang_volume *volume = renderer->volume;
-    for (int faces = 0; faces < 2; faces++) {
-        ang_slice_pass pass = faces ? ANG_SLICE_FACES : ANG_SLICE_INNER;
-        out->slices[faces] = ang_slice_program(cache, pass, scene, volume, options, s->finishes, counting, err);
-        if (!out->slices[faces]) return false;
-    }
-    if (s->finishes) {
-        out->finish = ang_slice_program(cache, ANG_SLICE_FINISH, scene, volume, options, false, false, err);
-        if (!out->finish) return false;
-        ang_uniform_int(out->finish, "slice_accumulated", UNIT_ACCUMULATED);
-        ang_uniform_float(out->finish, "termination", options->termination);
-    }
-    if (ang_slice_needs_resolve(scene)) {
-        out->resolve = ang_slice_program(cache, ANG_SLICE_RESOLVE, scene, volume, options, false, false, err);
-        if (!out->resolve) return false;
-    }
-    if (options->show_bricks) {
-        out->edges = ang_slice_program(cache, ANG_SLICE_EDGES, scene, volume, options, false, false, err);
-        if (!out->edges) return false;
-    }
+static ang_slice_recipe make_recipe(const ang_renderer *renderer, const ang_scene *scene,
+                                    const ang_render_options *options, const slicing *s, bool counting) {
+    return (ang_slice_recipe){scene, renderer->volume, options, &renderer->table, s->length, s->finishes, counting};
+}
+
+static bool get_program(ang_renderer *renderer, bool wanted, ang_slice_pass pass, const ang_slice_recipe *recipe,
+                        GLuint *program, ang_error *err) {
+    *program = wanted ? ang_slice_program(&renderer->programs, pass, recipe, err) : 0;
+    return !wanted || *program;
+}
+
+static bool get_programs(ang_renderer *renderer, const ang_slice_recipe *recipe, programs *out, ang_error *err) {
+    bool resolves = ang_slice_needs_resolve(recipe->scene), edges = recipe->options->show_bricks;
+    if (!get_program(renderer, true, ANG_SLICE_INNER, recipe, &out->slices[0], err) ||
+        !get_program(renderer, true, ANG_SLICE_FACES, recipe, &out->slices[1], err) ||
+        !get_program(renderer, recipe->early, ANG_SLICE_FINISH, recipe, &out->finish, err) ||
+        !get_program(renderer, resolves, ANG_SLICE_RESOLVE, recipe, &out->resolve, err) ||
+        !get_program(renderer, edges, ANG_SLICE_EDGES, recipe, &out->edges, err))
+        return false;
+    if (!out->finish) return true;
+    ang_uniform_int(out->finish, "slice_accumulated", UNIT_ACCUMULATED);
+    ang_uniform_float(out->finish, "termination", recipe->options->termination);
     return true;
 }
 
@@ -438,7 +441,8 @@ static bool draw(ang_renderer *renderer, const ang_scene *scene, const ang_rende
     unsigned parts = (counting ? ANG_TARGET_COUNTS : 0u) |
                      (s->finishes || scene->mode == ANG_MODE_ISO ? (unsigned)ANG_TARGET_DEPTH : 0u);
     ang_target *shown = ang_slice_needs_resolve(scene) ? &renderer->resolved : &renderer->accumulated;
-    if (!get_programs(renderer, scene, options, s, counting, &use, err) ||
+    ang_slice_recipe recipe = make_recipe(renderer, scene, options, s, counting);
+    if (!get_programs(renderer, &recipe, &use, err) ||
         !ang_target_resize(&renderer->accumulated, renderer->gl, scene->width, scene->height, parts, err) ||
         (use.resolve && !ang_target_resize(&renderer->resolved, renderer->gl, scene->width, scene->height, 0, err)) ||
         !ang_slice_geometry_make(&renderer->geometry, renderer->gl, &renderer->boxes, &s->planes, &s->frame, &s->order,
@@ -494,6 +498,12 @@ static void explain_boxes(const ang_renderer *renderer, const slicing *s, ang_pl
     const ang_slice_boxes *boxes = &renderer->boxes;
     ang_plan_use(plan, "%d planes %.4g mm apart, %s", s->planes.count, s->planes.distance,
                  s->order.back_to_front ? "back to front" : "front to back");
+    if (s->group > 1)
+        ang_plan_use(plan, "%d planes composited by a fragment before it blends", s->group);
+    else
+        ang_plan_leave_out(plan, "compositing of planes before they blend", "%s",
+                           s->visibility.mode == ANG_MODE_ISO ? "only the nearest hit shows"
+                                                              : "it does not pay with shading, or --passes-steps 1");
     ang_plan_use(plan, "polygons by %s: %zu boxes of the octree, %.0f polygons", ang_proxy_name(s->order.proxy),
                  boxes->nodes, boxes->polygons);
     if (!s->skips)
@@ -510,19 +520,19 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
     if (!decide(renderer, scene, options, &s, err)) return false;
     explain_storage(renderer, plan);
     explain_boxes(renderer, &s, plan);
-    const ang_volume *volume = renderer->volume;
-    ang_scene_explain(plan, scene, volume);
-    ang_slice_explain_pass(plan, ANG_SLICE_INNER, scene, volume, options, s.finishes);
-    ang_slice_explain_pass(plan, ANG_SLICE_FACES, scene, volume, options, s.finishes);
+    ang_scene_explain(plan, scene, renderer->volume);
+    ang_slice_recipe recipe = make_recipe(renderer, scene, options, &s, false);
+    ang_slice_explain_pass(plan, ANG_SLICE_INNER, &recipe);
+    ang_slice_explain_pass(plan, ANG_SLICE_FACES, &recipe);
     if (s.finishes)
-        ang_slice_explain_pass(plan, ANG_SLICE_FINISH, scene, volume, options, false);
+        ang_slice_explain_pass(plan, ANG_SLICE_FINISH, &recipe);
     else
         ang_plan_leave_out(plan, "early termination by the depth test", "%s", s.why_no_finish);
     if (ang_slice_needs_resolve(scene))
-        ang_slice_explain_pass(plan, ANG_SLICE_RESOLVE, scene, volume, options, false);
+        ang_slice_explain_pass(plan, ANG_SLICE_RESOLVE, &recipe);
     else
         ang_plan_leave_out(plan, "pass from values to grey", "slices blend to the picture itself");
-    if (options->show_bricks) ang_slice_explain_pass(plan, ANG_SLICE_EDGES, scene, volume, options, false);
+    if (options->show_bricks) ang_slice_explain_pass(plan, ANG_SLICE_EDGES, &recipe);
     return true;
 }
 

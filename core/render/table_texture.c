@@ -3,6 +3,7 @@
 #include "core/base/memory.h"
 
 #include <glad/gl.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,6 +38,8 @@ bool ang_table_texture_update(ang_table_texture *texture, ang_gl *gl, const ang_
                                    .count = transfer->count,
                                    .unit_distance = transfer->unit_distance,
                                    .by_extinction = transfer->by_extinction};
+    for (int i = 0; i < 2 * tables->intervals; i++)
+        texture->greatest = fmax(texture->greatest, tables->entries[4 * i + 3]);
     glGenBuffers(1, &texture->buffer);
     glBindBuffer(GL_TEXTURE_BUFFER, texture->buffer);
     glBufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)((size_t)tables->intervals * 8 * sizeof(float)), tables->entries,

@@ -10,6 +10,7 @@
 typedef struct ang_table_texture {
     unsigned buffer, texture;
     ang_transfer_tables *tables; /* NULL before the first update */
+    double greatest;             /* extinction per mm of any entry */
     ang_transfer_point *points;  /* what they were made from */
     size_t count;
     double unit_distance;

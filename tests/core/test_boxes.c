@@ -51,7 +51,7 @@ static setting make_setting(const char *view_text, ang_projection projection, co
     assert_true(ang_view_parse(view_text, &view, NULL));
     view.projection = projection;
     s.scene.camera = ang_camera_for(s.volume, &view);
-    s.cut = (ang_slice_cut){.top_level = ANG_OCTREE_MAX_LEVELS, .polygon_cost = 30};
+    s.cut = (ang_slice_cut){.top_level = ANG_OCTREE_MAX_LEVELS, .group = 1, .polygon_cost = 30};
     return s;
 }
 

@@ -28,7 +28,7 @@ static ang_transfer *vessels(void) {
     return ang_transfer_create(points, 3, 1, false, NULL, NULL);
 }
 
-static const ang_render_options exact = {.step_voxels = 0.5, .termination = 1};
+static const ang_render_options exact = {.step_voxels = 0.5, .termination = 1, .pass_steps = 1};
 
 /* `*state` is the context, NULL where the backend is not here. */
 #define open_gl(state)                                                                                                 \
@@ -175,6 +175,39 @@ static void bricks_skipping_and_proxies_change_no_bit(void **state) {
             }
             ang_image_clear(&image);
         }
+    ang_method_slicing.destroy(renderer);
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
+/* Which planes are composited before they blend changes the order of roundings alone. */
+static void groups_of_planes_change_rounding_alone(void **state) {
+    open_gl(state);
+    ang_volume *volume = sheared_volume(sparse_value);
+    ang_transfer *transfer = vessels();
+    ang_renderer *renderer = open_renderer(gl, volume, &exact);
+    for (int which = 0; which < SCENES; which++)
+        for (int mode = ANG_MODE_DVR; mode <= ANG_MODE_ISO; mode++)
+            for (int group = 0; group <= 4; group += 2) {
+                ang_scene scene = make_scene(which, volume, transfer);
+                scene.mode = (ang_mode)mode;
+                scene.shading = which % 2 ? ANG_SHADING_PHONG : ANG_SHADING_NONE;
+                ang_frame_stats one = {0}, grouped = {0};
+                ang_image image = draw(renderer, &scene, &exact, &one);
+                ang_render_options options = exact;
+                options.pass_steps = group;
+                options.no_skip = true;
+                memcpy(options.bricks, (const int[3]){3, 5, 2}, sizeof options.bricks);
+                bool extreme = mode == ANG_MODE_MIP || mode == ANG_MODE_MINIP || mode == ANG_MODE_ISO;
+                double change = changed_by(renderer, &scene, &image, &options, &grouped);
+                assert_true(change <= (extreme ? 0 : 1e-6));
+                options.proxy = ANG_PROXY_MARCHING_CUBES;
+                assert_true(changed_by(renderer, &scene, &image, &options, NULL) <= (extreme ? 0 : 1e-6));
+                options.no_skip = false;
+                assert_true(changed_by(renderer, &scene, &image, &options, NULL) <= (extreme ? 0 : 1e-6));
+                if (mode != ANG_MODE_ISO) assert_true(grouped.samples >= one.samples);
+                ang_image_clear(&image);
+            }
     ang_method_slicing.destroy(renderer);
     ang_transfer_free(transfer);
     ang_volume_free(volume);
@@ -461,6 +494,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(homogeneous_media_at_any_step_bricks_and_extinction),
         cmocka_unit_test(bricks_skipping_and_proxies_change_no_bit),
+        cmocka_unit_test(groups_of_planes_change_rounding_alone),
         cmocka_unit_test(every_sample_is_drawn_once),
         cmocka_unit_test(nothing_to_see_draws_nothing),
         cmocka_unit_test(termination_spares_samples_within_its_bound),

@@ -1,0 +1,11 @@
+// One plane a polygon.
+layout(location = 0) out vec4 picture;
+layout(location = 1) out float counted; // samples, of which for iso-surfaces those that show, added up by blending
+
+void main() {
+    vec2 pixel = gl_FragCoord.xy;
+    Slab slab;
+    if (!slab_at(pixel, slice_which, slab) || !slice_owns(slab.place)) discard;
+    picture = slice_value(pixel, slab);
+    counted = 1.0;
+}
