@@ -277,7 +277,7 @@ int ang_app_render(const ang_options *options, ang_error *err) {
         ang_app_say(&run.summary.warnings, "warning: ", NULL);
         if (options->verbose) ang_app_say(&run.report.assumptions, "note: ", NULL);
     }
-    if (run.renderer) run.method->destroy(run.renderer);
+    if (run.method && run.renderer) run.method->destroy(run.renderer);
     if (run.gl) ang_gl_destroy(run.gl);
     ang_image_clear(&run.image);
     ang_picture_clear(&run.picture);

@@ -5,5 +5,6 @@ uniform float slice_distance; // mm
 uniform int slice_count;
 
 float slice_depth(int plane) {
-    return slice_first + float(plane) * slice_distance;
+    precise float depth = slice_first + float(plane) * slice_distance;
+    return depth;
 }

@@ -9,7 +9,7 @@ float trilinear(sampler3D values, vec3 place) {
     vec3 cell = floor(voxel);
     vec3 f = voxel - cell;
     ivec3 a = ivec3(cell - trilinear_first);
-    ivec3 b = ivec3(min(cell + 1.0, trilinear_last) - trilinear_first);
+    ivec3 b = min(ivec3(min(cell + 1.0, trilinear_last) - trilinear_first), textureSize(values, 0) - 1);
     float v000 = texelFetch(values, a, 0).r;
     float v100 = texelFetch(values, ivec3(b.x, a.y, a.z), 0).r;
     float v010 = texelFetch(values, ivec3(a.x, b.y, a.z), 0).r;

@@ -39,8 +39,9 @@ bool ang_slice_node_bounds(const ang_octree *octree, const ang_ray_frame *frame,
     int first[3], end[3];
     ang_octree_cells(octree, level, node, first, end);
     for (int axis = 0; axis < 3; axis++) {
-        double from = fmax(start_of(octree, axis) + first[axis], ang_vec3_at(frame->lower, axis));
-        double to = fmin(start_of(octree, axis) + end[axis], ang_vec3_at(frame->upper, axis));
+        /* The clip box as the fragments see it: a face may fall on a seam by rounding. */
+        double from = fmax(start_of(octree, axis) + first[axis], (float)ang_vec3_at(frame->lower, axis));
+        double to = fmin(start_of(octree, axis) + end[axis], (float)ang_vec3_at(frame->upper, axis));
         if (!(from <= to)) return false;
         set(lower, axis, from);
         set(upper, axis, to);

@@ -16,6 +16,8 @@ ang_slice_planes ang_slice_planes_make(const ang_ray_frame *frame, double step_m
                                .distance = step_mm};
     double least, greatest;
     ang_slice_depths(&planes, frame->lower, frame->upper, &least, &greatest);
+    ang_vec3 diagonal = ang_mat4_direction(&frame->to_mm, ang_vec3_sub(frame->upper, frame->lower));
+    planes.rounding = 4e-6 * ang_vec3_length(diagonal);
     least = fmax(least, frame->near_depth);
     double extent = greatest - least;
     if (!(extent > 0)) return planes;
@@ -26,13 +28,15 @@ ang_slice_planes ang_slice_planes_make(const ang_ray_frame *frame, double step_m
         planes.count = 1;
     } else {
         planes.first = least + planes.distance / 2;
-        planes.count = (int)fmin(floor(whole + 0.5), ANG_SLICE_MOST_PLANES);
+        /* The last may lie behind the box: rays that meet the box only behind the last but one are its. */
+        planes.count = (int)fmin(ceil(whole), ANG_SLICE_MOST_PLANES);
     }
     return planes;
 }
 
 void ang_slice_range(const ang_slice_planes *planes, double least, double greatest, int *begin, int *end) {
-    const double open = 1e-3; /* of a step: far above rounding, far below what costs time */
+    /* In steps: far above the rounding of depths in float, and elsewhere far below what costs time. */
+    double open = fmax(1e-3, planes->rounding / planes->distance);
     double from = ceil((least - planes->first) / planes->distance - open);
     double to = floor((greatest - planes->first) / planes->distance + open) + 1;
     *begin = (int)fmin(fmax(from, 0), planes->count);

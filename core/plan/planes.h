@@ -12,11 +12,13 @@ typedef struct ang_slice_planes {
     int count;
     ang_vec3 gradient; /* depth of an index-space point p about the box's centre: gradient . p + offset */
     double offset;
+    double rounding; /* mm: what depths in float may be off by */
 } ang_slice_planes;
 
-/* Planes `step_mm` apart through the clip box beyond the near plane, the first half a step behind the nearest point. A
- * box that is thinner than a step gets one plane through its middle. The distance is raised where there would be more
- * than ANG_SLICE_MOST_PLANES. None where the box lies before the near plane. */
+/* Planes `step_mm` apart through the clip box beyond the near plane, the first half a step behind the nearest point,
+ * the last at most half a step behind the farthest. A box that is thinner than a step gets one plane through its
+ * middle. The distance is raised where there would be more than ANG_SLICE_MOST_PLANES. None where the box lies before
+ * the near plane. */
 ang_slice_planes ang_slice_planes_make(const ang_ray_frame *frame, double step_mm);
 enum { ANG_SLICE_MOST_PLANES = 1 << 20 };
 

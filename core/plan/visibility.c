@@ -27,7 +27,7 @@ bool ang_visibility_of(const ang_visibility *visibility, ang_minmax range) {
     const double rounding = 0.05;
     switch (visibility->mode) {
     case ANG_MODE_DVR:
-        return ang_tables_visible(visibility->tables, range.min, range.max);
+        return ang_tables_shows(visibility->tables, range.min, range.max);
     case ANG_MODE_MIP:
         return range.max > visibility->threshold - rounding;
     case ANG_MODE_MINIP:

@@ -16,13 +16,17 @@ struct ang_brick_slot {
  * often. */
 enum { WANTED_CELLS = 128, LEAST_SLOTS = 8 };
 
+static void tell_budget(ang_brick_store *store, size_t bytes) {
+    snprintf(store->reason, sizeof store->reason, "its %.6g MB are more than --gpu-memory %.6g", (double)bytes / 1e6,
+             (double)store->budget / 1e6);
+}
+
 bool ang_brick_store_make(ang_brick_store *store, ang_gl *gl, const ang_volume *volume, size_t budget, ang_error *err) {
     *store = (ang_brick_store){.gl = gl, .volume = volume, .budget = budget};
     size_t bytes = ang_volume_count(volume) * sizeof *volume->data;
     ang_error limit = {0};
     if (budget && bytes > budget)
-        snprintf(store->reason, sizeof store->reason, "its %.0f MB are more than --gpu-memory %.0f",
-                 (double)bytes / 1e6, (double)budget / 1e6);
+        tell_budget(store, bytes);
     else if (!ang_volume_texture_fits(gl, volume->dims, &limit))
         snprintf(store->reason, sizeof store->reason, "it is larger than one texture of this OpenGL may be");
     if (store->reason[0]) return true;
@@ -63,6 +67,12 @@ static bool is_wanted_size(const ang_brick_store *store, const int dims[3], size
 }
 
 bool ang_brick_store_arrange(ang_brick_store *store, const ang_octree *octree, ang_brick_needs needs, ang_error *err) {
+    size_t with_weight = 2 * ang_volume_count(store->volume) * sizeof *store->volume->data;
+    if (store->whole && needs.weight && store->budget && with_weight > store->budget) {
+        ang_volume_texture_destroy(&store->texture);
+        store->whole = false;
+        tell_budget(store, with_weight);
+    }
     if (store->whole)
         return !needs.weight || ang_volume_texture_add_weight(&store->texture, store->gl, store->volume, err);
     bool same = store->slot && store->octree && memcmp(store->leaf, octree->leaf, sizeof store->leaf) == 0 &&
@@ -82,7 +92,7 @@ bool ang_brick_store_arrange(ang_brick_store *store, const ang_octree *octree, a
     if (!ang_volume_texture_fits(store->gl, store->dims, err)) return false;
     if (store->budget && bytes > store->budget)
         return ang_fail(err, ANG_LIMIT,
-                        "--gpu-memory %.0f: one brick of the volume takes %.1f MB; give more, or more "
+                        "--gpu-memory %.6g: one brick of the volume takes %.1f MB; give more, or more "
                         "--bricks",
                         (double)store->budget / 1e6, (double)bytes / 1e6);
     const ang_octree_level *nodes = &octree->level[store->level];

@@ -29,8 +29,8 @@ extern const ang_render_options ang_render_options_default;
 
 /* What one frame did. */
 typedef struct ang_frame_stats {
-    uint64_t samples;   /* field evaluations along rays, shading left out */
-    uint64_t fragments; /* rays or fragments shaded */
+    uint64_t samples; /* field evaluations along rays, shading left out; slicing an iso-surface: those that were hits */
+    uint64_t fragments; /* rays shaded; slicing: fragments, those that hold no sample included; 0: not known */
     double step_mm;     /* sampling distance used, greater than asked for where the method has a limit; 0: exact */
     uint64_t bricks_drawn,
         bricks_total;            /* boxes drawn, and how many of the smallest there are; 1 of 1 without bricks */

@@ -19,10 +19,14 @@ const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const 
     *why = "there is no OpenGL";
     if (!gl) return &ang_method_reference;
     *why = "the volume does not fit into one texture";
-    size_t bytes = ang_volume_count(volume) * sizeof *volume->data;
+    bool weighted = scene->mode == ANG_MODE_MEAN && volume->padding;
+    size_t bytes = ang_volume_count(volume) * sizeof *volume->data * (weighted ? 2 : 1);
     if ((options->gpu_memory && bytes > options->gpu_memory) || !ang_volume_texture_fits(gl, volume->dims, NULL))
         return &ang_method_slicing;
-    *why = "most of the volume can be skipped in modes dvr and iso";
+    *why = "an option asks for slicing";
+    if (options->bricks[0] || options->show_bricks || options->pass_steps || options->proxy != ANG_PROXY_VERTEX_PROGRAM)
+        return &ang_method_slicing;
+    *why = "in modes dvr and iso boxes that show nothing can be skipped";
     if (scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO) return &ang_method_slicing;
     *why = "every sample counts in this mode, and those of a single pass are the cheapest";
     return &ang_method_singlepass;

@@ -16,7 +16,9 @@ bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume) {
 }
 
 int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume) {
-    if (scene->mode == ANG_MODE_ISO) return 1; /* table and gradient are for the hit alone */
+    /* Of an iso-surface table and gradient are looked up at the hit alone. The table's two neighbouring entries count
+     * as one lookup, as the papers count theirs, which the texture unit interpolated. */
+    if (scene->mode == ANG_MODE_ISO) return 1;
     return 1 + ang_scene_needs_table(scene) + 6 * ang_scene_needs_phong(scene) + ang_scene_needs_weight(scene, volume);
 }
 
@@ -144,10 +146,12 @@ static void set_window(unsigned program, const ang_volume *volume, const ang_sce
     ang_uniform_float(program, "window_scale", volume->slope / width);
 }
 
-static void set_mean(unsigned program, const ang_volume *volume) {
+static void set_mean(unsigned program, const ang_volume *volume, const ang_scene *scene) {
     /* Without padding any base will do: one near the values keeps the sums small. */
     double base = volume->padding ? ang_volume_padding_value(volume) : 0.5 * (volume->minimum + volume->maximum);
+    double typical = ang_volume_stored(volume, scene->window_centre);
     ang_uniform_float(program, "mean_base", base);
+    ang_uniform_float(program, "mean_typical", fmin(fmax(typical, volume->minimum), volume->maximum));
     ang_uniform_float(program, "mean_empty", ang_volume_stored(volume, -1000));
 }
 
@@ -165,6 +169,6 @@ void ang_uniforms_scene(unsigned program, const ang_scene *scene, const ang_volu
     else
         set_window(program, volume, scene);
     if (ang_scene_needs_phong(scene)) set_phong(program, volume, scene, frame);
-    if (scene->mode == ANG_MODE_MEAN) set_mean(program, volume);
+    if (scene->mode == ANG_MODE_MEAN) set_mean(program, volume, scene);
     if (scene->mode == ANG_MODE_ISO) set_iso(program, volume, scene);
 }

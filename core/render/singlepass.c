@@ -37,7 +37,12 @@ static void destroy(ang_renderer *renderer) {
 }
 
 static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_render_options *options, ang_error *err) {
-    (void)options;
+    if (options->gpu_memory && ang_volume_count(volume) * sizeof *volume->data > options->gpu_memory) {
+        ang_fail(err, ANG_LIMIT,
+                 "--gpu-memory: the volume is larger, and --method singlepass cannot draw it in bricks; "
+                 "choose --method slicing");
+        return NULL;
+    }
     if (!gl) {
         ang_fail(err, ANG_GL, "--method singlepass needs OpenGL: choose another --backend, or --method reference");
         return NULL;

@@ -214,11 +214,13 @@ static bool add_polygons(builder *b, const ang_slice_box *box, int begin, int en
 static bool add_box(builder *b, const ang_slice_box *box, const ang_slice_box *before) {
     int group = b->order->group, first = box->begin / group, groups = ang_slice_groups(box->begin, box->end, group);
     int last = (b->planes->count - 1) / group;
-    int stretches = (groups + STRETCH_GROUPS - 1) / STRETCH_GROUPS;
+    /* A stretch is one draw's at least: in large pictures it must be short. */
+    double fit = b->order->most_samples / fmax(box->samples / groups, 1);
+    int length = (int)fmin(fmax(fit, 1), STRETCH_GROUPS), stretches = (groups + length - 1) / length;
     for (int i = 0; i < stretches; i++) {
         int stretch = b->order->back_to_front ? stretches - 1 - i : i;
-        int begin = first + stretch * STRETCH_GROUPS;
-        int end = begin + STRETCH_GROUPS < first + groups ? begin + STRETCH_GROUPS : first + groups;
+        int begin = first + stretch * length;
+        int end = begin + length < first + groups ? begin + length : first + groups;
         /* The first and the last plane have a neighbour on one side only. */
         bool faces = box->faces || begin == 0 || end > last;
         ang_slice_draw *draw = open_draw(b, box, i > 0 ? box : before, end - begin, faces);

@@ -17,8 +17,11 @@
 
 enum { UNIT_ACCUMULATED = ANG_UNIT_FREE };
 
-/* Voxels, more than any volume has: keeps reaches from overflowing. */
-static const double most_reach = 1 << 20;
+/* Voxels: no farther from any voxel is another. */
+static double most_reach(const ang_volume *volume) {
+    const int *dims = volume->dims;
+    return fmax(dims[0], fmax(dims[1], dims[2]));
+}
 
 /* What a polygon costs in fragments, without and with shading: measured on llvmpipe (docs/papers.md). */
 static const double polygon_cost = 300, polygon_cost_shaded = 120;
@@ -40,9 +43,10 @@ struct ang_renderer {
     ang_slice_geometry geometry;
     ang_slice_boxes boxes;
     ang_octree *octree;
-    GLuint vertices; /* no attributes, but a draw needs one bound */
-    GLuint query;    /* counts finished pixels */
-    char note[512];  /* what the user should know */
+    GLuint vertices;    /* no attributes, but a draw needs one bound */
+    GLuint query;       /* counts finished pixels */
+    GLuint invocations; /* counts fragments */
+    char note[512];     /* what the user should know */
 };
 
 /* All that is decided about one picture before anything is drawn. */
@@ -65,6 +69,7 @@ static void destroy(ang_renderer *renderer) {
     if (!renderer) return;
     if (renderer->vertices) glDeleteVertexArrays(1, &renderer->vertices);
     if (renderer->query) glDeleteQueries(1, &renderer->query);
+    if (renderer->invocations) glDeleteQueries(1, &renderer->invocations);
     ang_target_destroy(&renderer->accumulated);
     ang_target_destroy(&renderer->resolved);
     ang_programs_clear(&renderer->programs);
@@ -91,6 +96,7 @@ static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_rend
     }
     glGenVertexArrays(1, &renderer->vertices);
     glGenQueries(1, &renderer->query);
+    glGenQueries(1, &renderer->invocations);
     /* Until the volume has arrived, so that callers can time it. */
     glFinish();
     return renderer;
@@ -204,7 +210,7 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     s->length = step_length(scene, &s->frame, &s->planes);
     s->margin = step_margin(&s->frame, s->length);
     if (scene->mode == ANG_MODE_ISO)
-        s->needs.reach += (int)fmin(ceil(fmax(s->margin.x, fmax(s->margin.y, s->margin.z))), most_reach);
+        s->needs.reach += (int)fmin(ceil(fmax(s->margin.x, fmax(s->margin.y, s->margin.z))), most_reach(volume));
     if (!prepare_octree(renderer, options, s, err) ||
         !ang_brick_store_arrange(&renderer->store, renderer->octree, s->needs, err))
         return false;
@@ -239,6 +245,8 @@ static void set_state(const ang_scene *scene, const slicing *s, bool counting) {
         source = GL_ONE;
         destination = GL_ONE_MINUS_SRC_ALPHA;
     }
+    glDisable(GL_SCISSOR_TEST);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     float clear = blends[scene->mode].clear;
     const float colour[4] = {clear, clear, clear, clear}, zero[4] = {0}, far = 1;
     glClearBufferfv(GL_COLOR, 0, colour);
@@ -259,7 +267,6 @@ static void set_state(const ang_scene *scene, const slicing *s, bool counting) {
     glDepthFunc(GL_LESS);
     glDepthMask(scene->mode == ANG_MODE_ISO);
     glDisable(GL_CULL_FACE);
-    glDisable(GL_SCISSOR_TEST);
 }
 
 /* Depth 0 wherever the opacity has reached the threshold: nothing passes there any more. Returns how many pixels are
@@ -389,17 +396,22 @@ static void resolve(ang_renderer *renderer, const ang_scene *scene, const slicin
 }
 
 /* The edges of the boxes over the finished picture, as in Rezk-Salama & Kolb's figure 6. */
-static bool draw_edges(ang_renderer *renderer, const slicing *s, GLuint program, ang_error *err) {
+static bool draw_edges(ang_renderer *renderer, const ang_scene *scene, const slicing *s, GLuint program,
+                       ang_error *err) {
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDrawBuffer(GL_COLOR_ATTACHMENT0); /* edges are no samples */
     glUseProgram(program);
     ang_uniforms_clip_space(program, &s->space);
     /* Many boxes lie one behind the other. */
     double opacity = fmin(0.4, 6 / sqrt((double)renderer->boxes.nodes + 1));
     ang_uniform_vec4(program, "edge_colour", ang_vec3_scale((ang_vec3){0.95, 0.8, 0.3}, opacity), opacity);
-    return ang_slice_geometry_draw_edges(&renderer->boxes, renderer->octree, &s->frame, err);
+    bool ok = ang_slice_geometry_draw_edges(&renderer->boxes, renderer->octree, &s->frame, err);
+    static const GLenum attachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    if (!ang_slice_needs_resolve(scene) && renderer->accumulated.counts) glDrawBuffers(2, attachments);
+    return ok;
 }
 
 static bool read_counts(const ang_target *target, ang_frame_stats *stats, ang_error *err) {
@@ -407,30 +419,36 @@ static bool read_counts(const ang_target *target, ang_frame_stats *stats, ang_er
     if (!counts) return false;
     uint64_t pixels = 0;
     ang_target_read_counts(target, 0, target->height, counts, &stats->samples, &pixels);
-    stats->fragments = stats->samples;
     free(counts);
     return true;
 }
 
-static void note_storage(ang_renderer *renderer, const ang_frame_stats *stats) {
+static void make_note(ang_renderer *renderer, const ang_render_options *options) {
     const ang_brick_store *store = &renderer->store;
+    const int *made = renderer->octree->level[0].dims, *asked = options->bricks;
     renderer->note[0] = '\0';
+    bool other = asked[0] != made[0] || asked[1] != made[1] || asked[2] != made[2];
+    if (store->whole && asked[0] > 0 && other)
+        snprintf(renderer->note, sizeof renderer->note,
+                 "--bricks %dx%dx%d: bricks of equal size are %dx%dx%d, of %dx%dx%d cells each", asked[0], asked[1],
+                 asked[2], made[0], made[1], made[2], renderer->octree->leaf[0], renderer->octree->leaf[1],
+                 renderer->octree->leaf[2]);
     if (store->whole) return;
     const ang_octree_level *nodes = &store->octree->level[store->level];
     snprintf(renderer->note, sizeof renderer->note,
-             "the volume is drawn in bricks, since %s: %d x %d x %d of up to %d x %d x %d voxels, %zu held at once, "
-             "%llu uploaded for this picture",
+             "the volume is drawn in bricks, since %s: %d x %d x %d of up to %d x %d x %d voxels, %zu held at once",
              store->reason, nodes->dims[0], nodes->dims[1], nodes->dims[2], store->dims[0], store->dims[1],
-             store->dims[2], store->slots, (unsigned long long)stats->bricks_uploaded);
+             store->dims[2], store->slots);
 }
 
-static void sum_up(ang_renderer *renderer, const slicing *s, uint64_t uploads_before, ang_frame_stats *stats) {
+static void sum_up(ang_renderer *renderer, const ang_render_options *options, const slicing *s, uint64_t uploads_before,
+                   ang_frame_stats *stats) {
     stats->step_mm = s->planes.distance;
     stats->bricks_total = renderer->boxes.leaves_total;
     stats->bricks_drawn = renderer->boxes.nodes;
     stats->bricks_uploaded = renderer->store.uploads - uploads_before;
     stats->octree_ms = s->octree_ms;
-    note_storage(renderer, stats);
+    make_note(renderer, options);
     stats->note = renderer->note[0] ? renderer->note : NULL;
 }
 
@@ -457,9 +475,17 @@ static bool draw(ang_renderer *renderer, const ang_scene *scene, const ang_rende
         ang_slice_geometry_uniforms(&renderer->geometry, use.slices[k], &s->planes, &s->frame, &s->space, &s->order);
         set_planes(use.slices[k], s);
     }
+    bool invocations = counting && GLAD_GL_ARB_pipeline_statistics_query;
+    if (invocations) glBeginQuery(GL_FRAGMENT_SHADER_INVOCATIONS_ARB, renderer->invocations);
     bool ok = accumulate(renderer, s, &use, stats, progress, err);
+    if (invocations) {
+        glEndQuery(GL_FRAGMENT_SHADER_INVOCATIONS_ARB);
+        GLuint64 count = 0;
+        glGetQueryObjectui64v(renderer->invocations, GL_QUERY_RESULT, &count);
+        stats->fragments = count;
+    }
     if (ok && use.resolve) resolve(renderer, scene, s, use.resolve);
-    if (ok && use.edges) ok = draw_edges(renderer, s, use.edges, err);
+    if (ok && use.edges) ok = draw_edges(renderer, scene, s, use.edges, err);
     if (ok) ang_target_read(shown, 0, scene->height, image);
     return ok && (!counting || read_counts(&renderer->accumulated, stats, err));
 }
@@ -474,11 +500,12 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     glUseProgram(0);
     glBindVertexArray(0);
     glDisable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
     glDisable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     if (!ok) return false;
-    sum_up(renderer, &s, uploads, &done);
+    sum_up(renderer, options, &s, uploads, &done);
     if (stats) *stats = done;
     return ang_gl_check(renderer->gl, err);
 }
@@ -506,12 +533,11 @@ static void explain_boxes(const ang_renderer *renderer, const slicing *s, ang_pl
                                                               : "it does not pay with shading, or --passes-steps 1");
     ang_plan_use(plan, "polygons by %s: %zu boxes of the octree, %.0f polygons", ang_proxy_name(s->order.proxy),
                  boxes->nodes, boxes->polygons);
-    if (!s->skips)
-        ang_plan_leave_out(plan, "skipping of invisible boxes", "%s", s->why_no_skip);
-    else
-        ang_plan_leave_out(plan, "invisible boxes", "%zu of %zu leaves of the octree: %s, or out of the picture",
+    if (!s->skips) ang_plan_leave_out(plan, "skipping of invisible boxes", "%s", s->why_no_skip);
+    if (boxes->leaves_total > boxes->leaves_drawn)
+        ang_plan_leave_out(plan, "boxes", "%zu of %zu leaves of the octree: %s%sout of the picture or the clip box",
                            boxes->leaves_total - boxes->leaves_drawn, boxes->leaves_total,
-                           ang_visibility_reason(s->visibility.mode));
+                           s->skips ? ang_visibility_reason(s->visibility.mode) : "", s->skips ? ", or " : "");
 }
 
 static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
@@ -538,7 +564,7 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
 
 const ang_method ang_method_slicing = {
     .name = "slicing",
-    .title = "view-aligned slices of octree boxes, cut in the vertex program",
+    .title = "view-aligned slices of octree boxes",
     .source =
         "Rezk-Salama & Kolb, A Vertex Program for Efficient Box-Plane Intersection, VMV 2005; Benassarou, Bittar, "
         "John & Lucas, MC Slicing for Volume Rendering Applications, ICCS 2005",

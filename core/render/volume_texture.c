@@ -4,6 +4,7 @@
 
 #include <glad/gl.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Bytes handed to GL at once: drivers copy what they get. */
 static const size_t slab_bytes = (size_t)64 << 20;
@@ -17,17 +18,20 @@ bool ang_volume_texture_fits(ang_gl *gl, const int dims[3], ang_error *err) {
         if (dims[axis] > limit)
             return ang_fail(
                 err, ANG_LIMIT,
-                "volume of %dx%dx%d voxels: this OpenGL (%s) takes at most %d a side in one texture; choose --method "
-                "slicing, which takes it in bricks, or --method reference",
+                "volume of %dx%dx%d voxels: this OpenGL (%s) takes at most %d a side in one texture; --method "
+                "slicing takes larger volumes in bricks (more --bricks make them smaller), --method reference as they "
+                "are",
                 dims[0], dims[1], dims[2], ang_gl_renderer(gl), limit);
     GLint width = 0;
     glTexImage3D(GL_PROXY_TEXTURE_3D, 0, GL_R16, dims[0], dims[1], dims[2], 0, GL_RED, GL_UNSIGNED_SHORT, NULL);
     glGetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &width);
     if (width == dims[0]) return true;
-    return ang_fail(err, ANG_LIMIT,
-                    "volume of %dx%dx%d voxels is larger than one texture of this OpenGL (%s) may be; choose --method "
-                    "slicing, which takes it in bricks, or --method reference",
-                    dims[0], dims[1], dims[2], ang_gl_renderer(gl));
+    return ang_fail(
+        err, ANG_LIMIT,
+        "volume of %dx%dx%d voxels is larger than one texture of this OpenGL (%s) may be; --method "
+        "slicing takes larger volumes in bricks (more --bricks make them smaller), --method reference as they "
+        "are",
+        dims[0], dims[1], dims[2], ang_gl_renderer(gl));
 }
 
 static bool covers(const ang_volume_texture *texture, const ang_volume *volume) {
@@ -53,7 +57,12 @@ static void fill_values(const ang_volume_texture *texture, const ang_volume *vol
     for (int row = 0; row < depth * texture->dims[1]; row++, out += width) {
         const uint16_t *from =
             volume->data + row_start(texture, volume, row % texture->dims[1], z + row / texture->dims[1]);
-        for (int x = 0; x < width; x++) out[x] = from[clamped(texture, volume, 0, x)];
+        int before = texture->first[0] < 0 ? -texture->first[0] : 0;
+        int inside = volume->dims[0] - texture->first[0] < width ? volume->dims[0] - texture->first[0] : width;
+        for (int x = 0; x < before; x++) out[x] = from[0];
+        if (inside > before)
+            memcpy(out + before, from + (texture->first[0] + before), (size_t)(inside - before) * sizeof *out);
+        for (int x = inside; x < width; x++) out[x] = from[volume->dims[0] - 1];
     }
 }
 

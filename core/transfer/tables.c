@@ -345,3 +345,14 @@ bool ang_tables_visible(const ang_transfer_tables *tables, uint16_t min, uint16_
     if (min >= max) return min == max && tables->point_visible[min];
     return tables->visible[max] > tables->visible[min];
 }
+
+bool ang_tables_shows(const ang_transfer_tables *tables, uint16_t min, uint16_t max) {
+    if (tables->per_value >= 1) return ang_tables_visible(tables, min, max);
+    double width = 1 / tables->per_value;
+    double low = tables->first + width * floor((min - tables->first) / width);
+    double high = tables->first + width * ceil((max - tables->first) / width);
+    /* One interval more: a step inside an interval moves to its nearer end. */
+    low = fmin(fmax(low - width, 0), 65535);
+    high = fmin(fmax(high + width, 0), 65535);
+    return ang_tables_visible(tables, (uint16_t)low, (uint16_t)high);
+}

@@ -42,5 +42,8 @@ ang_transfer_tables *ang_tables_create(const ang_transfer *transfer, double slop
 void ang_tables_free(ang_transfer_tables *tables);
 /* Exact and O(1): whether any value in the closed interval [min, max] of stored values has extinction > 0. */
 bool ang_tables_visible(const ang_transfer_tables *tables, uint16_t min, uint16_t max);
+/* The same of what the table's interpolant shows, which spreads to the ends of intervals wider than a stored value:
+ * what renderers that look up the table must ask before they skip. */
+bool ang_tables_shows(const ang_transfer_tables *tables, uint16_t min, uint16_t max);
 
 #endif

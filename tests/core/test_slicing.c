@@ -414,6 +414,46 @@ static void thin_volumes_and_great_steps(void **state) {
     ang_transfer_free(transfer);
 }
 
+/* Opacity of a homogeneous medium along every ray of the box. */
+static void check_every_ray(ang_renderer *renderer, const ang_volume *volume, const ang_scene *scene, double step,
+                            int group) {
+    ang_render_options options = exact;
+    options.step_voxels = step;
+    options.pass_steps = group;
+    ang_image image = draw(renderer, scene, &options, NULL);
+    for (int p = 0; p < scene->width * scene->height; p++)
+        assert_close(image.rgba[4 * p + 3], -expm1(-0.7 * ray_length(volume, scene, p)), 6e-5);
+    ang_image_clear(&image);
+}
+
+/* Slabs thinner than a step, and flat clip boxes: rays that meet the box between two planes or behind the last. */
+static void thin_slabs_seen_obliquely_have_no_holes(void **state) {
+    open_gl(state);
+    static const double unit[3] = {1, 1, 1};
+    ang_volume *slab = make_volume(104, 104, 2, unit, flat_value), *block = sheared_volume(flat_value);
+    ang_transfer *transfer = constant_transfer(0.7, 0.25, 0.5, 1);
+    ang_renderer *of_slab = open_renderer(gl, slab, &exact), *of_block = open_renderer(gl, block, &exact);
+    ang_view view = ang_view_default;
+    for (int k = 0; k < 40; k++) {
+        view.projection = k & 1 ? ANG_PERSPECTIVE : ANG_PARALLEL;
+        view.azimuth_deg = k < 20 ? 0 : 13 * k;
+        view.elevation_deg = k < 20 ? 64 : 5 * k - 150;
+        ang_scene scene = make_scene(1, slab, transfer), clipped = make_scene(1, block, transfer);
+        scene.camera = ang_camera_for(slab, &view);
+        scene.height = 150;
+        check_every_ray(of_slab, slab, &scene, 3 + 0.1 * k, k & 2 ? 2 : 1);
+        check_every_ray(of_slab, slab, &scene, 3 + 0.1 * k, k & 2 ? 1 : 4);
+        clipped.camera = ang_camera_for(block, &view);
+        assert_true(ang_scene_clip_parse("10,30,12,12.4,3,35", block, &clipped, NULL));
+        check_every_ray(of_block, block, &clipped, 0.3 + 0.05 * k, 1);
+    }
+    ang_method_slicing.destroy(of_slab);
+    ang_method_slicing.destroy(of_block);
+    ang_transfer_free(transfer);
+    ang_volume_free(slab);
+    ang_volume_free(block);
+}
+
 static void bricks_are_shown_as_edges(void **state) {
     open_gl(state);
     ang_volume *volume = sheared_volume(sparse_value);
@@ -425,7 +465,10 @@ static void bricks_are_shown_as_edges(void **state) {
         ang_image image = draw(renderer, &scene, &exact, NULL);
         ang_render_options options = exact;
         options.show_bricks = true;
-        ang_image other = draw(renderer, &scene, &options, NULL);
+        ang_frame_stats plain = {0}, edged = {0};
+        ang_image again = draw(renderer, &scene, &exact, &plain), other = draw(renderer, &scene, &options, &edged);
+        assert_int_equal(plain.samples, edged.samples);
+        ang_image_clear(&again);
         int changed = 0;
         for (int p = 0; p < width * height; p++)
             changed += memcmp(image.rgba + 4 * p, other.rgba + 4 * p, 4 * sizeof(float)) != 0;
@@ -500,6 +543,7 @@ int main(void) {
         cmocka_unit_test(termination_spares_samples_within_its_bound),
         cmocka_unit_test(a_memory_budget_streams_bricks),
         cmocka_unit_test(thin_volumes_and_great_steps),
+        cmocka_unit_test(thin_slabs_seen_obliquely_have_no_holes),
         cmocka_unit_test(bricks_are_shown_as_edges),
         cmocka_unit_test(refusals_and_interruption),
     };

@@ -271,6 +271,40 @@ static void visible_is_exact(void **state) {
 }
 
 /* Whatever the points, the limit and the range: nothing negative, not finite, or visible where all is transparent. */
+/* Where intervals are wider than a stored value the interpolant spreads: nothing that it shows may be skipped. */
+static void coarse_tables_show_no_more_than_they_say(void **state) {
+    (void)state;
+    int hidden = 0;
+    for (int k = 0; k < 60; k++) {
+        double start = 100 + floor(60000 * random_unit()), wide = 1 + floor(3000 * random_unit());
+        double opacity = k % 3 ? 0.5 : 1;
+        ang_transfer_point points[] = {{10, {0, 0.5, 0}, 0},
+                                       {start, {0, 0, 0}, 0},
+                                       {k % 2 ? start : start + 7, {1, 1, 1}, opacity},
+                                       {start + 7 + wide, {1, 1, 1}, opacity},
+                                       {start + 8 + wide, {0, 0, 0}, 0},
+                                       {65000, {1, 0, 0}, 0}};
+        ang_transfer *t = make(points, 6);
+        ang_transfer_tables *tables = tabulate(t, 1, 0, 0, 65535, k & 4 ? 9000 : 30000);
+        assert_true(tables->per_value < 1);
+        for (int i = 0; i < 400; i++) {
+            int low = (int)fmin(fmax(start + (i % 2 ? 0 : wide) + 60 * (random_unit() - 0.5), 0), 65535);
+            int high = (int)fmin(low + 6 * random_unit(), 65535);
+            bool shows = false;
+            for (double v = low; v <= high; v += 0.25) {
+                double rgbk[4];
+                look_up(tables, v, rgbk);
+                shows = shows || rgbk[3] > 0;
+            }
+            if (shows) assert_true(ang_tables_shows(tables, (uint16_t)low, (uint16_t)high));
+            hidden += shows && !ang_tables_visible(tables, (uint16_t)low, (uint16_t)high);
+        }
+        ang_tables_free(tables);
+        ang_transfer_free(t);
+    }
+    assert_true(hidden > 0); /* or the question would be idle */
+}
+
 static void any_function_gives_sound_tables(void **state) {
     (void)state;
     for (int i = 0; i < 300; i++) {
@@ -320,6 +354,7 @@ int main(void) {
         cmocka_unit_test(peaks_keep_their_integral),
         cmocka_unit_test(spikes_do_not_vanish),
         cmocka_unit_test(visible_is_exact),
+        cmocka_unit_test(coarse_tables_show_no_more_than_they_say),
         cmocka_unit_test(any_function_gives_sound_tables),
         cmocka_unit_test(bad_slopes_are_refused),
     };
