@@ -1,5 +1,5 @@
-/* Benassarou et al. 2005, figure 4, without texturing: the polygons of one box cut on the CPU, frames a second at 1 to 16
- * planes a voxel, in turns in one run; medians of nine. The vertex program's twin runs on the CPU here too. */
+/* Benassarou et al. 2005, figure 4, without texturing: the polygons of one box cut on the CPU, frames a second at 1 to
+ * 16 planes a voxel, in turns in one run; medians of nine. The vertex program's twin runs on the CPU here too. */
 #include "core/base/clock.h"
 #include "core/proxy/proxy.h"
 
