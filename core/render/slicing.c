@@ -1,69 +1,18 @@
 /* Slicing with octree skipping: Rezk-Salama & Kolb 2005; the proxies of Benassarou et al. 2005. */
-#include "core/render/method.h"
+#include "core/render/slicing_private.h"
 
 #include "core/base/clock.h"
 #include "core/base/memory.h"
-#include "core/plan/boxes.h"
-#include "core/render/brick_store.h"
 #include "core/render/scene_parts.h"
-#include "core/render/slice_geometry.h"
-#include "core/render/slice_program.h"
-#include "core/render/target.h"
 
 #include <glad/gl.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { UNIT_ACCUMULATED = ANG_UNIT_FREE };
 
-/* Voxels: no farther from any voxel is another. */
-static double most_reach(const ang_volume *volume) {
-    const int *dims = volume->dims;
-    return fmax(dims[0], fmax(dims[1], dims[2]));
-}
-
-/* What a polygon costs in fragments, without and with shading: measured on llvmpipe (docs/papers.md). */
-static const double polygon_cost = 300, polygon_cost_shaded = 120;
-/* Work is handed to OpenGL in pieces of about this many fragments, so that it can be interrupted... */
-static const double piece_samples = 8e6;
-/* ... and pixels that are finished are looked for about this often in a picture, but not for less than this many
- * fragments a pixel: a look costs about four. */
-static const double finish_looks = 12, finish_least = 8;
 /* A look that finds less than this share of the picture was not worth it. */
 static const double finish_share = 0.02;
-
-struct ang_renderer {
-    ang_gl *gl;
-    const ang_volume *volume;
-    ang_brick_store store;
-    ang_table_texture table;
-    ang_programs programs;
-    ang_target accumulated, resolved;
-    ang_slice_geometry geometry;
-    ang_slice_boxes boxes;
-    ang_octree *octree;
-    GLuint vertices;    /* no attributes, but a draw needs one bound */
-    GLuint query;       /* counts finished pixels */
-    GLuint invocations; /* counts fragments */
-    char note[512];     /* what the user should know */
-};
-
-/* All that is decided about one picture before anything is drawn. */
-typedef struct slicing {
-    ang_ray_frame frame;
-    ang_clip_space space;
-    ang_slice_planes planes;
-    ang_vec3 margin; /* index units: see step_margin */
-    double length;   /* mm of a ray from one plane to the next, at most */
-    int group;       /* planes that share a polygon */
-    ang_visibility visibility;
-    ang_brick_needs needs;
-    ang_slice_order order;
-    bool skips, finishes;
-    const char *why_no_skip, *why_no_finish;
-    double octree_ms;
-} slicing;
 
 static void destroy(ang_renderer *renderer) {
     if (!renderer) return;
@@ -102,136 +51,8 @@ static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_rend
     return renderer;
 }
 
-/* Millimetres that a ray moves from one plane to the next, at most. */
-static double step_length(const ang_scene *scene, const ang_ray_frame *frame, const ang_slice_planes *planes) {
-    double least_cosine = 1;
-    for (int corner = 0; corner < 4; corner++) {
-        ang_ray ray = ang_ray_through(frame, corner & 1 ? scene->width : 0, corner & 2 ? scene->height : 0);
-        least_cosine = fmin(least_cosine, ang_vec3_dot(ray.direction_mm, frame->axis_mm));
-    }
-    return 1.01 * planes->distance / fmax(least_cosine, 1e-3);
-}
-
-/* The same in index units along each axis. */
-static ang_vec3 step_margin(const ang_ray_frame *frame, double length) {
-    double margin[3];
-    for (int axis = 0; axis < 3; axis++) {
-        const double *row = frame->to_index.m[axis];
-        margin[axis] = length * sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
-    }
-    return (ang_vec3){margin[0], margin[1], margin[2]};
-}
-
-static bool prepare_octree(ang_renderer *renderer, const ang_render_options *options, slicing *s, ang_error *err) {
-    const ang_volume *volume = renderer->volume;
-    int leaf[3], apron = 1;
-    /* A hit before a plane shows at that plane: what lies a step before it must count as well. */
-    if (s->visibility.mode == ANG_MODE_ISO) apron += s->needs.reach;
-    for (int axis = 0; axis < 3; axis++) {
-        int cells = volume->dims[axis] > 1 ? volume->dims[axis] - 1 : 1, bricks = options->bricks[axis];
-        leaf[axis] = bricks > 0 ? (cells + bricks - 1) / bricks : ANG_OCTREE_LEAF;
-        if (leaf[axis] > cells) leaf[axis] = cells;
-    }
-    ang_octree *now = renderer->octree;
-    if (now && memcmp(now->leaf, leaf, sizeof leaf) == 0 && now->apron == apron) return true;
-    ang_octree_free(now);
-    double start = ang_now_ms();
-    renderer->octree = ang_octree_build(volume, leaf, apron, options->threads, err);
-    s->octree_ms = ang_now_ms() - start;
-    return renderer->octree != NULL;
-}
-
-static void decide_skipping(const ang_renderer *renderer, const ang_render_options *options, slicing *s) {
-    s->why_no_skip = NULL;
-    if (options->no_skip)
-        s->why_no_skip = "--no-skip";
-    else if (s->visibility.mode == ANG_MODE_MEAN)
-        s->why_no_skip = "every value counts in a mean";
-    else if (ang_visibility_of_all(&s->visibility, renderer->octree->level[renderer->octree->levels - 1].nodes[0]))
-        s->why_no_skip = "nothing in the volume is invisible";
-    s->skips = !s->why_no_skip;
-}
-
-/* Looks for finished pixels are left out where they cannot pay. */
-static void decide_finishing(const ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
-                             slicing *s) {
-    s->why_no_finish = NULL;
-    if (scene->mode != ANG_MODE_DVR) {
-        s->why_no_finish = scene->mode == ANG_MODE_ISO ? "the depth test itself keeps the nearest hit"
-                                                       : "every sample counts in this mode";
-    } else if (!(options->termination < 1)) {
-        s->why_no_finish = "--no-termination";
-    } else {
-        double depth = renderer->table.greatest * 2 * ang_volume_half_diagonal(renderer->volume);
-        if (-expm1(-depth) < options->termination)
-            s->why_no_finish = "no ray can reach the threshold";
-        else if (renderer->boxes.samples < finish_least * scene->width * scene->height)
-            s->why_no_finish = "there are too few fragments to spare any";
-    }
-    s->finishes = !s->why_no_finish;
-}
-
-static bool same_texture(const void *context, const ang_slice_box *a, const ang_slice_box *b) {
-    return ang_brick_store_same(context, a->level, a->node, b->level, b->node);
-}
-
-static void decide_order(const ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
-                         slicing *s) {
-    s->order = (ang_slice_order){.proxy = options->proxy,
-                                 .back_to_front = scene->mode == ANG_MODE_DVR && !s->finishes,
-                                 .group = s->group,
-                                 .margin = s->margin,
-                                 .most_samples = piece_samples,
-                                 .same_texture = same_texture,
-                                 .context = &renderer->store};
-    if (s->finishes) {
-        double least = finish_least * scene->width * scene->height;
-        s->order.most_samples = fmin(fmax(renderer->boxes.samples / finish_looks, least), piece_samples);
-    }
-}
-
-/* Everything up to the boxes: what render() and explain() share. */
-static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, slicing *s,
-                   ang_error *err) {
-    *s = (slicing){0};
-    const ang_volume *volume = renderer->volume;
-    if (!(options->step_voxels > 0))
-        return ang_fail(err, ANG_USAGE, "--step %g: give a positive multiple of the smallest spacing",
-                        options->step_voxels);
-    if (!ang_scene_check(scene, err) || !ang_ray_frame_make(volume, scene, &s->frame, err)) return false;
-    if (ang_scene_needs_table(scene) &&
-        !ang_table_texture_update(&renderer->table, renderer->gl, scene->transfer, volume, err))
-        return false;
-    s->space = ang_clip_space_make(&s->frame, scene->width, scene->height);
-    s->planes = ang_slice_planes_make(&s->frame, options->step_voxels * ang_volume_smallest_spacing(volume));
-    s->visibility = ang_visibility_make(volume, scene, renderer->table.tables);
-    s->needs.weight = ang_scene_needs_weight(scene, volume);
-    s->needs.reach = ang_scene_needs_phong(scene);
-    s->length = step_length(scene, &s->frame, &s->planes);
-    s->margin = step_margin(&s->frame, s->length);
-    if (scene->mode == ANG_MODE_ISO)
-        s->needs.reach += (int)fmin(ceil(fmax(s->margin.x, fmax(s->margin.y, s->margin.z))), most_reach(volume));
-    if (!prepare_octree(renderer, options, s, err) ||
-        !ang_brick_store_arrange(&renderer->store, renderer->octree, s->needs, err))
-        return false;
-    decide_skipping(renderer, options, s);
-    s->group = ang_slice_group(scene, options);
-    bool shaded = ang_scene_needs_phong(scene);
-    ang_slice_cut cut = {.visibility = s->skips ? &s->visibility : NULL,
-                         .to_leaves = options->bricks[0] > 0,
-                         .top_level = ang_brick_store_level(&renderer->store),
-                         .margin = s->margin,
-                         .group = s->group,
-                         .polygon_cost = shaded ? polygon_cost_shaded : polygon_cost};
-    if (!ang_slice_boxes_make(&renderer->boxes, renderer->octree, &s->frame, &s->planes, &s->space, &cut, err))
-        return false;
-    decide_finishing(renderer, scene, options, s);
-    decide_order(renderer, scene, options, s);
-    return true;
-}
-
 /* Blending and depth test of the pass that accumulates. */
-static void set_state(const ang_scene *scene, const slicing *s, bool counting) {
+static void set_state(const ang_scene *scene, const ang_slicing *s, bool counting) {
     static const struct {
         GLenum equation, source, destination;
         float clear;
@@ -292,7 +113,7 @@ static unsigned finish_pixels(const ang_renderer *renderer, GLuint program) {
 }
 
 /* slice_planes.glsl and slice_sample.glsl */
-static void set_planes(GLuint program, const slicing *s) {
+static void set_planes(GLuint program, const ang_slicing *s) {
     const ang_ray_frame *frame = &s->frame;
     double reference = ang_vec3_dot(ang_vec3_sub(frame->origin_mm, frame->eye_mm), frame->axis_mm);
     ang_uniform_float(program, "slice_inverse_reference", frame->perspective ? 1 / reference : 1);
@@ -313,11 +134,6 @@ typedef struct programs {
     GLuint slices[2]; /* away from the faces, at the faces */
     GLuint finish, resolve, edges;
 } programs;
-
-static ang_slice_recipe make_recipe(const ang_renderer *renderer, const ang_scene *scene,
-                                    const ang_render_options *options, const slicing *s, bool counting) {
-    return (ang_slice_recipe){scene, renderer->volume, options, &renderer->table, s->length, s->finishes, counting};
-}
 
 static bool get_program(ang_renderer *renderer, bool wanted, ang_slice_pass pass, const ang_slice_recipe *recipe,
                         GLuint *program, ang_error *err) {
@@ -340,7 +156,7 @@ static bool get_programs(ang_renderer *renderer, const ang_slice_recipe *recipe,
 }
 
 /* Draws all slices; the accumulated target is bound. */
-static bool accumulate(ang_renderer *renderer, const slicing *s, const programs *use, ang_frame_stats *stats,
+static bool accumulate(ang_renderer *renderer, const ang_slicing *s, const programs *use, ang_frame_stats *stats,
                        const ang_progress *progress, ang_error *err) {
     const ang_slice_geometry *geometry = &renderer->geometry;
     const ang_volume_texture *bound = NULL;
@@ -380,7 +196,7 @@ static bool accumulate(ang_renderer *renderer, const slicing *s, const programs 
     return true;
 }
 
-static void resolve(ang_renderer *renderer, const ang_scene *scene, const slicing *s, GLuint program) {
+static void resolve(ang_renderer *renderer, const ang_scene *scene, const ang_slicing *s, GLuint program) {
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->resolved.framebuffer);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
@@ -396,7 +212,7 @@ static void resolve(ang_renderer *renderer, const ang_scene *scene, const slicin
 }
 
 /* The edges of the boxes over the finished picture, as in Rezk-Salama & Kolb's figure 6. */
-static bool draw_edges(ang_renderer *renderer, const ang_scene *scene, const slicing *s, GLuint program,
+static bool draw_edges(ang_renderer *renderer, const ang_scene *scene, const ang_slicing *s, GLuint program,
                        ang_error *err) {
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
@@ -441,8 +257,8 @@ static void make_note(ang_renderer *renderer, const ang_render_options *options)
              store->dims[2], store->slots);
 }
 
-static void sum_up(ang_renderer *renderer, const ang_render_options *options, const slicing *s, uint64_t uploads_before,
-                   ang_frame_stats *stats) {
+static void sum_up(ang_renderer *renderer, const ang_render_options *options, const ang_slicing *s,
+                   uint64_t uploads_before, ang_frame_stats *stats) {
     stats->step_mm = s->planes.distance;
     stats->bricks_total = renderer->boxes.leaves_total;
     stats->bricks_drawn = renderer->boxes.nodes;
@@ -452,14 +268,14 @@ static void sum_up(ang_renderer *renderer, const ang_render_options *options, co
     stats->note = renderer->note[0] ? renderer->note : NULL;
 }
 
-static bool draw(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, const slicing *s,
-                 ang_image *image, bool counting, ang_frame_stats *stats, const ang_progress *progress,
-                 ang_error *err) {
+static bool draw(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                 const ang_slicing *s, ang_image *image, bool counting, ang_frame_stats *stats,
+                 const ang_progress *progress, ang_error *err) {
     programs use;
     unsigned parts = (counting ? ANG_TARGET_COUNTS : 0u) |
                      (s->finishes || scene->mode == ANG_MODE_ISO ? (unsigned)ANG_TARGET_DEPTH : 0u);
     ang_target *shown = ang_slice_needs_resolve(scene) ? &renderer->resolved : &renderer->accumulated;
-    ang_slice_recipe recipe = make_recipe(renderer, scene, options, s, counting);
+    ang_slice_recipe recipe = ang_slicing_recipe(renderer, scene, options, s, counting);
     if (!get_programs(renderer, &recipe, &use, err) ||
         !ang_target_resize(&renderer->accumulated, renderer->gl, scene->width, scene->height, parts, err) ||
         (use.resolve && !ang_target_resize(&renderer->resolved, renderer->gl, scene->width, scene->height, 0, err)) ||
@@ -492,10 +308,10 @@ static bool draw(ang_renderer *renderer, const ang_scene *scene, const ang_rende
 
 static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
-    slicing s;
+    ang_slicing s;
     ang_frame_stats done = {0};
     uint64_t uploads = renderer->store.uploads;
-    bool ok = decide(renderer, scene, options, &s, err) &&
+    bool ok = ang_slicing_decide(renderer, scene, options, &s, err) &&
               draw(renderer, scene, options, &s, image, stats != NULL, &done, progress, err);
     glUseProgram(0);
     glBindVertexArray(0);
@@ -510,58 +326,6 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     return ang_gl_check(renderer->gl, err);
 }
 
-static void explain_storage(const ang_renderer *renderer, ang_plan *plan) {
-    const ang_brick_store *store = &renderer->store;
-    if (store->whole) {
-        ang_plan_use(plan, "one 3D texture of 16 bits for the whole volume");
-        ang_plan_leave_out(plan, "one texture a brick", "the volume fits into one");
-    } else {
-        ang_plan_use(plan, "one 3D texture of 16 bits a brick, since %s; invisible bricks are never uploaded",
-                     store->reason);
-    }
-}
-
-static void explain_boxes(const ang_renderer *renderer, const slicing *s, ang_plan *plan) {
-    const ang_slice_boxes *boxes = &renderer->boxes;
-    ang_plan_use(plan, "%d planes %.4g mm apart, %s", s->planes.count, s->planes.distance,
-                 s->order.back_to_front ? "back to front" : "front to back");
-    if (s->group > 1)
-        ang_plan_use(plan, "%d planes composited by a fragment before it blends", s->group);
-    else
-        ang_plan_leave_out(plan, "compositing of planes before they blend", "%s",
-                           s->visibility.mode == ANG_MODE_ISO ? "only the nearest hit shows"
-                                                              : "it does not pay with shading, or --passes-steps 1");
-    ang_plan_use(plan, "polygons by %s: %zu boxes of the octree, %.0f polygons", ang_proxy_name(s->order.proxy),
-                 boxes->nodes, boxes->polygons);
-    if (!s->skips) ang_plan_leave_out(plan, "skipping of invisible boxes", "%s", s->why_no_skip);
-    if (boxes->leaves_total > boxes->leaves_drawn)
-        ang_plan_leave_out(plan, "boxes", "%zu of %zu leaves of the octree: %s%sout of the picture or the clip box",
-                           boxes->leaves_total - boxes->leaves_drawn, boxes->leaves_total,
-                           s->skips ? ang_visibility_reason(s->visibility.mode) : "", s->skips ? ", or " : "");
-}
-
-static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
-                    ang_error *err) {
-    slicing s;
-    if (!decide(renderer, scene, options, &s, err)) return false;
-    explain_storage(renderer, plan);
-    explain_boxes(renderer, &s, plan);
-    ang_scene_explain(plan, scene, renderer->volume);
-    ang_slice_recipe recipe = make_recipe(renderer, scene, options, &s, false);
-    ang_slice_explain_pass(plan, ANG_SLICE_INNER, &recipe);
-    ang_slice_explain_pass(plan, ANG_SLICE_FACES, &recipe);
-    if (s.finishes)
-        ang_slice_explain_pass(plan, ANG_SLICE_FINISH, &recipe);
-    else
-        ang_plan_leave_out(plan, "early termination by the depth test", "%s", s.why_no_finish);
-    if (ang_slice_needs_resolve(scene))
-        ang_slice_explain_pass(plan, ANG_SLICE_RESOLVE, &recipe);
-    else
-        ang_plan_leave_out(plan, "pass from values to grey", "slices blend to the picture itself");
-    if (options->show_bricks) ang_slice_explain_pass(plan, ANG_SLICE_EDGES, &recipe);
-    return true;
-}
-
 const ang_method ang_method_slicing = {
     .name = "slicing",
     .title = "view-aligned slices of octree boxes",
@@ -571,6 +335,6 @@ const ang_method ang_method_slicing = {
     .needs_gl = true,
     .create = create,
     .render = render,
-    .explain = explain,
+    .explain = ang_slicing_explain,
     .destroy = destroy,
 };
