@@ -12,26 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "tests/app/program.h"
 
 #define TMP     ANG_TEST_TMP "/command-line"
 #define PHANTOM TMP "/phantom"
-
-static char output[1 << 20];
-
-/* Runs the program with arguments for the shell; stdout goes to `output`. Returns the exit code. */
-static int run(const char *arguments) {
-    char command[4096];
-    snprintf(command, sizeof command, "%s %s", ANG_PROGRAM, arguments);
-    FILE *pipe = popen(command, "r");
-    assert_non_null(pipe);
-    size_t length = fread(output, 1, sizeof output - 1, pipe);
-    output[length] = '\0';
-    int status = pclose(pipe);
-    assert_true(WIFEXITED(status));
-    return WEXITSTATUS(status);
-}
 
 static void expect(int code, const char *arguments) {
     int actual = run(arguments);

@@ -1,22 +1,8 @@
 /* What `angioscope info` says of what it cannot load. */
 #define FOLDER ANG_TEST_TMP "/info"
 #include "tests/io/small_dicom.h"
-
-#include <sys/wait.h>
-
-static char output[1 << 16];
-
-static int run(const char *arguments) {
-    char command[4096];
-    snprintf(command, sizeof command, "%s %s", ANG_PROGRAM, arguments);
-    FILE *pipe = popen(command, "r");
-    assert_non_null(pipe);
-    size_t length = fread(output, 1, sizeof output - 1, pipe);
-    output[length] = '\0';
-    int status = pclose(pipe);
-    assert_true(WIFEXITED(status));
-    return WEXITSTATUS(status);
-}
+/* after it */
+#include "tests/app/program.h"
 
 static void what_is_not_loaded_is_listed(void **state) {
     (void)state;

@@ -1,7 +1,6 @@
 /* The single pass against closed forms, on every backend that is here. */
-#include "tests/core/fixtures.h"
+#include "tests/core/backends.h"
 
-#include "core/render/context.h"
 #include "core/render/method.h"
 
 #include <string.h>
@@ -20,11 +19,6 @@ static double ramp_y(int x, int y, int z) {
 }
 
 static const ang_render_options exact = {.step_voxels = 0.5, .termination = 1};
-
-/* `*state` is the context, NULL where the backend is not here. */
-#define open_gl(state)                                                                                                 \
-    ang_gl *gl = *(state);                                                                                             \
-    if (!gl) skip()
 
 static ang_renderer *open_renderer(ang_gl *gl, const ang_volume *volume) {
     ang_error err = {0};
@@ -417,22 +411,6 @@ static void refusals_and_interruption(void **state) {
     ang_volume_free(volume);
 }
 
-static int open_backend(void **state, ang_backend backend) {
-    ang_error err = {0};
-    *state = ang_gl_create(backend, &err);
-    if (!*state) print_message("no %s here: %s\n", ang_backend_name(backend), err.message);
-#ifdef ANG_WITH_OSMESA
-    if (!*state && backend == ANG_BACKEND_OSMESA) return -1;
-#endif
-    return 0;
-}
-static int open_osmesa(void **state) { return open_backend(state, ANG_BACKEND_OSMESA); }
-static int open_egl(void **state) { return open_backend(state, ANG_BACKEND_EGL); }
-static int close_backend(void **state) {
-    ang_gl_destroy(*state);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(homogeneous_medium_at_any_step_and_extinction),
@@ -448,6 +426,5 @@ int main(void) {
         cmocka_unit_test(samples_rays_and_termination_are_counted),
         cmocka_unit_test(refusals_and_interruption),
     };
-    int failed = cmocka_run_group_tests_name("osmesa", tests, open_osmesa, close_backend);
-    return failed + cmocka_run_group_tests_name("egl", tests, open_egl, close_backend);
+    return run_on_backends(tests);
 }
