@@ -48,6 +48,14 @@ static inline ang_transfer *constant_transfer(double extinction, double r, doubl
     return transfer;
 }
 
+/* Millimetres of a pixel's ray in the box. */
+static inline double ray_length(const ang_volume *volume, const ang_scene *scene, int pixel) {
+    ang_ray_frame frame;
+    assert_true(ang_ray_frame_make(volume, scene, &frame, NULL));
+    ang_ray ray = ang_ray_through(&frame, pixel % scene->width + 0.5, pixel / scene->width + 0.5);
+    return fmax(ray.leave - ray.enter, 0);
+}
+
 /* Deterministic numbers in [0, 1) (xorshift). */
 static inline double random_unit(uint64_t *state) {
     *state ^= *state << 13;

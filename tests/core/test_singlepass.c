@@ -59,14 +59,6 @@ static ang_scene make_scene(const ang_volume *volume, const ang_transfer *transf
     return scene;
 }
 
-/* Millimetres of a pixel's ray in the box. */
-static double ray_length(const ang_volume *volume, const ang_scene *scene, int pixel) {
-    ang_ray_frame frame;
-    assert_true(ang_ray_frame_make(volume, scene, &frame, NULL));
-    ang_ray ray = ang_ray_through(&frame, pixel % scene->width + 0.5, pixel / scene->width + 0.5);
-    return fmax(ray.leave - ray.enter, 0);
-}
-
 /* 1 - exp(-kappa L) in every pixel and its share of colour, for a medium of constant extinction. */
 static void check_homogeneous(const ang_volume *volume, const ang_scene *scene, const ang_image *image,
                               double tolerance) {

@@ -91,14 +91,6 @@ static ang_scene make_scene(int which, const ang_volume *volume, const ang_trans
     return scene;
 }
 
-/* Millimetres of a pixel's ray in the box. */
-static double ray_length(const ang_volume *volume, const ang_scene *scene, int pixel) {
-    ang_ray_frame frame;
-    assert_true(ang_ray_frame_make(volume, scene, &frame, NULL));
-    ang_ray ray = ang_ray_through(&frame, pixel % scene->width + 0.5, pixel / scene->width + 0.5);
-    return fmax(ray.leave - ray.enter, 0);
-}
-
 static void homogeneous_media_at_any_step_bricks_and_extinction(void **state) {
     open_gl(state);
     ang_volume *volume = sheared_volume(flat_value);
