@@ -1,5 +1,7 @@
 #include "core/plan/boxes.h"
 
+#include "core/base/memory.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,10 +36,22 @@ static void set(ang_vec3 *v, int axis, double value) {
 
 static double start_of(const ang_octree *octree, int axis) { return -0.5 * octree->cells[axis]; }
 
-bool ang_slice_node_bounds(const ang_octree *octree, const ang_ray_frame *frame, int level, const int node[3],
-                           ang_vec3 *lower, ang_vec3 *upper) {
+bool ang_slice_same_block(const ang_slice_box *a, const ang_slice_box *b) {
+    return memcmp(&a->block, &b->block, sizeof a->block) == 0;
+}
+
+/* The cells [first, end) along each axis. */
+static void block_cells(const ang_octree *octree, const ang_slice_block *block, int first[3], int end[3]) {
+    int last[3], unused[3];
+    for (int axis = 0; axis < 3; axis++) last[axis] = block->first[axis] + block->count[axis] - 1;
+    ang_octree_cells(octree, block->level, block->first, first, unused);
+    ang_octree_cells(octree, block->level, last, unused, end);
+}
+
+bool ang_slice_block_bounds(const ang_octree *octree, const ang_ray_frame *frame, const ang_slice_block *block,
+                            ang_vec3 *lower, ang_vec3 *upper) {
     int first[3], end[3];
-    ang_octree_cells(octree, level, node, first, end);
+    block_cells(octree, block, first, end);
     for (int axis = 0; axis < 3; axis++) {
         /* The clip box as the fragments see it: a face may fall on a seam by rounding. */
         double from = fmax(start_of(octree, axis) + first[axis], (float)ang_vec3_at(frame->lower, axis));
@@ -57,12 +71,12 @@ static bool find_planes(const traversal *t, double reach, ang_slice_box *box) {
     return box->begin < box->end && !ang_clip_space_outside(t->space, box->lower, box->upper);
 }
 
-/* The box of a node; false where nothing of it can be seen. */
-static bool bound(const traversal *t, int level, const int node[3], ang_slice_box *box) {
+/* The box of a block; false where nothing of it can be seen. */
+static bool bound(const traversal *t, const ang_slice_block *block, ang_slice_box *box) {
     int first[3], end[3];
-    *box = (ang_slice_box){.level = level, .node = {node[0], node[1], node[2]}};
-    if (!ang_slice_node_bounds(t->octree, t->frame, level, node, &box->lower, &box->upper)) return false;
-    ang_octree_cells(t->octree, level, node, first, end);
+    *box = (ang_slice_box){.block = *block};
+    if (!ang_slice_block_bounds(t->octree, t->frame, block, &box->lower, &box->upper)) return false;
+    block_cells(t->octree, block, first, end);
     for (int axis = 0; axis < 3; axis++) {
         bool bottom = first[axis] == 0, top = end[axis] == t->octree->cells[axis];
         set(&box->owner_lower, axis, bottom ? -INFINITY : start_of(t->octree, axis) + first[axis]);
@@ -176,12 +190,11 @@ static ang_minmax range_of(const ang_octree *octree, int level, const int node[3
     return l->nodes[(size_t)node[0] + (size_t)l->dims[0] * ((size_t)node[1] + (size_t)l->dims[1] * (size_t)node[2])];
 }
 
-/* Leaves below a node. */
-static size_t count_leaves(const ang_octree *octree, int level, const int node[3]) {
+static size_t count_leaves(const ang_octree *octree, const ang_slice_block *block) {
     size_t count = 1;
+    int first[3], end[3];
+    block_cells(octree, block, first, end);
     for (int axis = 0; axis < 3; axis++) {
-        int first[3], end[3];
-        ang_octree_cells(octree, level, node, first, end);
         count *= (size_t)((end[axis] - first[axis] + octree->leaf[axis] - 1) / octree->leaf[axis]);
     }
     return count;
@@ -196,50 +209,173 @@ static bool lower_first(const traversal *t, int level, const int node[3], int ax
     return ang_vec3_at(t->frame->eye, axis) < between;
 }
 
-static cost visit(traversal *t, int level, const int node[3]);
+/* A node's children, and their joins: along each axis the lower, the upper, or both. */
+enum { LOWER, UPPER, BOTH, CHOICES };
 
-static cost visit_children(traversal *t, int level, const int node[3]) {
+/* What has been chosen for a join: 0 to 2: to cut it in two across that axis, or one of these. */
+enum { NOTHING = 3, AS_VISITED, ONE_BOX };
+
+typedef struct join {
+    cost cost;
+    int choice;
+    bool cut;          /* one of its children has been cut into its own: hardly cheaper as one box */
+    size_t begin, end; /* AS_VISITED: its boxes among those of the node */
+} join;
+
+/* The children of one node. */
+typedef struct family {
+    join joins[CHOICES][CHOICES][CHOICES]; /* z, y, x */
+    int level, node[3];                    /* of the parent */
+    bool lower_first[3];
+    const ang_slice_box *box; /* what has been visited */
+} family;
+
+static join *join_of(family *f, const int which[3]) { return &f->joins[which[2]][which[1]][which[0]]; }
+
+/* The block of a join: of all children the parent itself. False where the octree ends before its upper half, so that it
+ * is its lower half. */
+static bool block_of(const traversal *t, const family *f, const int which[3], ang_slice_block *block) {
+    if (which[0] == BOTH && which[1] == BOTH && which[2] == BOTH) {
+        *block = (ang_slice_block){f->level, {f->node[0], f->node[1], f->node[2]}, {1, 1, 1}};
+        return true;
+    }
+    const ang_octree_level *children = &t->octree->level[f->level - 1];
+    *block = (ang_slice_block){.level = f->level - 1};
+    for (int axis = 0; axis < 3; axis++) {
+        block->first[axis] = 2 * f->node[axis] + (which[axis] == UPPER);
+        block->count[axis] = which[axis] == BOTH ? 2 : 1;
+        if (block->first[axis] + block->count[axis] > children->dims[axis]) return false;
+    }
+    return true;
+}
+
+static cost cost_of(traversal *t, const ang_slice_block *block, const ang_slice_box *box) {
+    cost whole = {0, estimate_samples(t, box), count_leaves(t->octree, block)};
+    append_parts(t, box, true, &whole.polygons);
+    return whole;
+}
+
+/* Chooses the cheapest for a join of two or more children, whose parts have been chosen. */
+static void choose(traversal *t, family *f, const int which[3]) {
+    join *here = join_of(f, which);
+    *here = (join){.choice = NOTHING};
+    bool all = true;
+    for (int axis = 0; axis < 3; axis++) {
+        all = all && which[axis] == BOTH;
+        if (which[axis] != BOTH) continue;
+        int half[3] = {which[0], which[1], which[2]};
+        half[axis] = LOWER;
+        const join *a = join_of(f, half);
+        half[axis] = UPPER;
+        const join *b = join_of(f, half);
+        cost sum = {a->cost.polygons + b->cost.polygons, a->cost.samples + b->cost.samples,
+                    a->cost.leaves + b->cost.leaves};
+        if (a->choice == NOTHING && b->choice == NOTHING) return;
+        if (here->choice == NOTHING || weigh(t, &sum) < weigh(t, &here->cost))
+            *here = (join){.cost = sum, .choice = axis, .cut = a->cut || b->cut};
+    }
+    ang_slice_block block;
+    ang_slice_box box;
+    if ((here->cut && !all) || !block_of(t, f, which, &block) || !bound(t, &block, &box)) return;
+    cost whole = cost_of(t, &block, &box);
+    if (weigh(t, &whole) <= weigh(t, &here->cost)) *here = (join){.cost = whole, .choice = ONE_BOX};
+}
+
+/* Adds what has been chosen, front to back. */
+static void emit(traversal *t, family *f, const int which[3]) {
+    const join *here = join_of(f, which);
+    ang_slice_block block;
+    ang_slice_box box;
+    double unused;
+    if (t->failed || here->choice == NOTHING) return;
+    if (here->choice == ONE_BOX) {
+        if (block_of(t, f, which, &block) && bound(t, &block, &box) && !append_parts(t, &box, false, &unused))
+            t->failed = true;
+    } else if (here->choice == AS_VISITED) {
+        for (size_t i = here->begin; i < here->end && !t->failed; i++) t->failed = !append(t, &f->box[i]);
+    } else {
+        int axis = here->choice, half[3] = {which[0], which[1], which[2]};
+        half[axis] = f->lower_first[axis] ? LOWER : UPPER;
+        emit(t, f, half);
+        half[axis] = f->lower_first[axis] ? UPPER : LOWER;
+        emit(t, f, half);
+    }
+}
+static join visit(traversal *t, int level, const int node[3]);
+
+/* Visits the children of a node in the order of view: adds their boxes, and returns what all cost. */
+static cost visit_children(traversal *t, family *f) {
     cost sum = {0};
     int flip = 0;
-    for (int axis = 0; axis < 3; axis++) flip |= lower_first(t, level, node, axis) ? 0 : 1 << axis;
+    for (int axis = 0; axis < 3; axis++) flip |= f->lower_first[axis] ? 0 : 1 << axis;
     for (int i = 0; i < 8 && !t->failed; i++) {
-        int child[3];
-        bool exists = true;
-        for (int axis = 0; axis < 3; axis++) {
-            child[axis] = 2 * node[axis] + ((i ^ flip) >> axis & 1);
-            exists = exists && child[axis] < t->octree->level[level - 1].dims[axis];
-        }
-        if (!exists) continue;
-        cost part = visit(t, level - 1, child);
-        sum.polygons += part.polygons;
-        sum.samples += part.samples;
-        sum.leaves += part.leaves;
+        int which[3] = {(i ^ flip) & 1, (i ^ flip) >> 1 & 1, (i ^ flip) >> 2 & 1};
+        ang_slice_block child;
+        join *here = join_of(f, which);
+        *here = (join){.choice = NOTHING};
+        if (!block_of(t, f, which, &child)) continue;
+        size_t begin = t->boxes->count;
+        *here = visit(t, child.level, child.first);
+        here->begin = begin;
+        here->end = t->boxes->count;
+        sum.polygons += here->cost.polygons;
+        sum.samples += here->cost.samples;
+        sum.leaves += here->cost.leaves;
     }
     return sum;
 }
 
-/* Adds the boxes of a node and returns what they cost: its children's, or itself where that is cheaper. */
-static cost visit(traversal *t, int level, const int node[3]) {
-    const ang_slice_cut *cut = t->cut;
-    if (cut->visibility && !ang_visibility_of(cut->visibility, range_of(t->octree, level, node))) return (cost){0};
-    ang_slice_box box;
-    if (!bound(t, level, node, &box)) return (cost){0};
-    cost whole = {0, estimate_samples(t, &box), count_leaves(t->octree, level, node)};
-    append_parts(t, &box, true, &whole.polygons);
-    bool may_stop = level == 0 || (!cut->to_leaves && level <= cut->top_level);
-    bool all = !cut->visibility || ang_visibility_of_all(cut->visibility, range_of(t->octree, level, node));
-    if (level > 0 && !(may_stop && all)) {
-        size_t before = t->boxes->count;
-        cost parts = visit_children(t, level, node);
-        if (!may_stop || weigh(t, &parts) < weigh(t, &whole)) return parts;
-        t->boxes->count = before;
+/* Replaces what has been added since `before` by the cheapest joins. */
+static join join_children(traversal *t, family *f, size_t before) {
+    for (int i = 0; i < CHOICES * CHOICES * CHOICES; i++) {
+        int which[3] = {i % CHOICES, i / CHOICES % CHOICES, i / CHOICES / CHOICES};
+        if (which[0] == BOTH || which[1] == BOTH || which[2] == BOTH) choose(t, f, which);
     }
-    if (!append_parts(t, &box, false, &whole.polygons)) t->failed = true;
-    return whole;
+    static const int all[3] = {BOTH, BOTH, BOTH};
+    size_t count = t->boxes->count - before;
+    ang_slice_box *visited = ang_alloc(count ? count : 1, sizeof *visited, "boxes to slice", t->err);
+    if (!visited) {
+        t->failed = true;
+        return (join){0};
+    }
+    memcpy(visited, t->boxes->box + before, count * sizeof *visited);
+    for (int i = 0; i < 8; i++) {
+        join *here = join_of(f, (const int[3]){i & 1, i >> 1 & 1, i >> 2 & 1});
+        here->begin -= before;
+        here->end -= before;
+    }
+    f->box = visited;
+    t->boxes->count = before;
+    emit(t, f, all);
+    free(visited);
+    join chosen = *join_of(f, all);
+    chosen.cut = chosen.choice != ONE_BOX;
+    if (chosen.choice != NOTHING) chosen.choice = AS_VISITED;
+    return chosen;
 }
 
-static bool same_node(const ang_slice_box *a, const ang_slice_box *b) {
-    return a->level == b->level && memcmp(a->node, b->node, sizeof a->node) == 0;
+/* Adds the boxes of a node and returns what they cost: its children's, joined or not, or itself. */
+static join visit(traversal *t, int level, const int node[3]) {
+    const ang_slice_cut *cut = t->cut;
+    const ang_slice_block block = {level, {node[0], node[1], node[2]}, {1, 1, 1}};
+    ang_slice_box box;
+    if ((cut->visibility && !ang_visibility_of(cut->visibility, range_of(t->octree, level, node))) ||
+        !bound(t, &block, &box))
+        return (join){.choice = NOTHING};
+    bool may_join = !cut->to_leaves && level <= cut->top_level;
+    bool all = !cut->visibility || ang_visibility_of_all(cut->visibility, range_of(t->octree, level, node));
+    if (level == 0 || (may_join && all)) {
+        join whole = {.cost = cost_of(t, &block, &box), .choice = AS_VISITED};
+        double unused;
+        if (!append_parts(t, &box, false, &unused)) t->failed = true;
+        return whole;
+    }
+    family f = {.level = level, .node = {node[0], node[1], node[2]}};
+    for (int axis = 0; axis < 3; axis++) f.lower_first[axis] = lower_first(t, level, node, axis);
+    size_t before = t->boxes->count;
+    cost children = visit_children(t, &f);
+    if (t->failed || !may_join) return (join){.cost = children, .choice = AS_VISITED, .cut = true};
+    return join_children(t, &f, before);
 }
 
 bool ang_slice_boxes_make(ang_slice_boxes *boxes, const ang_octree *octree, const ang_ray_frame *frame,
@@ -253,12 +389,13 @@ bool ang_slice_boxes_make(ang_slice_boxes *boxes, const ang_octree *octree, cons
     const ang_octree_level *leaves = &octree->level[0];
     boxes->leaves_total = (size_t)leaves->dims[0] * (size_t)leaves->dims[1] * (size_t)leaves->dims[2];
     cost all = {0};
-    if (planes->count > 0) all = visit(&t, octree->levels - 1, (const int[3]){0, 0, 0});
+    if (planes->count > 0) all = visit(&t, octree->levels - 1, (const int[3]){0, 0, 0}).cost;
     boxes->leaves_drawn = all.leaves;
     boxes->polygons = all.polygons;
     boxes->samples = all.samples;
-    boxes->nodes = 0;
-    for (size_t i = 0; i < boxes->count; i++) boxes->nodes += i == 0 || !same_node(&boxes->box[i], &boxes->box[i - 1]);
+    boxes->blocks = 0;
+    for (size_t i = 0; i < boxes->count; i++)
+        boxes->blocks += i == 0 || !ang_slice_same_block(&boxes->box[i], &boxes->box[i - 1]);
     return !t.failed;
 }
 

@@ -156,8 +156,7 @@ static ang_slice_draw *open_draw(builder *b, const ang_slice_box *box, const ang
         geometry->capacity = wanted;
     }
     ang_slice_draw *draw = &geometry->draw[geometry->draws++];
-    *draw = (ang_slice_draw){.level = box->level,
-                             .node = {box->node[0], box->node[1], box->node[2]},
+    *draw = (ang_slice_draw){.block = box->block,
                              .first = (int)b->count,
                              .faces = faces};
     return draw;
@@ -352,26 +351,26 @@ void ang_slice_geometry_draw(const ang_slice_geometry *geometry, const ang_slice
 
 bool ang_slice_geometry_draw_edges(const ang_slice_boxes *boxes, const ang_octree *octree, const ang_ray_frame *frame,
                                    ang_error *err) {
-    float *corners = ang_alloc(boxes->nodes, 6 * sizeof *corners, "edges of boxes", err);
+    float *corners = ang_alloc(boxes->blocks, 6 * sizeof *corners, "edges of boxes", err);
     if (!corners) return false;
-    size_t nodes = 0;
+    size_t blocks = 0;
     for (size_t i = 0; i < boxes->count; i++) {
         const ang_slice_box *box = &boxes->box[i];
         ang_vec3 lower, upper;
-        bool again = i > 0 && box->level == box[-1].level && memcmp(box->node, box[-1].node, sizeof box->node) == 0;
-        if (again || !ang_slice_node_bounds(octree, frame, box->level, box->node, &lower, &upper)) continue;
-        store(corners + 6 * nodes, lower);
-        store(corners + 6 * nodes++ + 3, upper);
+        bool again = i > 0 && ang_slice_same_block(box, box - 1);
+        if (again || !ang_slice_block_bounds(octree, frame, &box->block, &lower, &upper)) continue;
+        store(corners + 6 * blocks, lower);
+        store(corners + 6 * blocks++ + 3, upper);
     }
     GLuint array, buffer;
     glGenVertexArrays(1, &array);
     glBindVertexArray(array);
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(nodes * 6 * sizeof *corners), corners, GL_STREAM_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(blocks * 6 * sizeof *corners), corners, GL_STREAM_DRAW);
     float_attribute(0, 6 * sizeof *corners, 0, 1);
     float_attribute(1, 6 * sizeof *corners, 3 * sizeof *corners, 1);
-    glDrawArraysInstanced(GL_LINES, 0, 24, (GLsizei)nodes);
+    glDrawArraysInstanced(GL_LINES, 0, 24, (GLsizei)blocks);
     glBindVertexArray(0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
     glDeleteBuffers(1, &buffer);

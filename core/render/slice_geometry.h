@@ -10,7 +10,7 @@
 
 /* A stretch of the geometry that one draw call takes, all of boxes in one texture. */
 typedef struct ang_slice_draw {
-    int level, node[3]; /* the first of its boxes: which texture */
+    ang_slice_block block; /* of the first of its boxes: which texture */
     int first, count;   /* instances, or vertices where the CPU cut the polygons */
     int groups;         /* vertex program: groups of planes of the instance that has the most */
     bool faces;     /* a box is so near to a face of the clip box that a sample may be the first or last of its ray */
@@ -58,7 +58,7 @@ void ang_slice_geometry_uniforms(const ang_slice_geometry *geometry, unsigned pr
 
 /* Draws one stretch with the program in use. */
 void ang_slice_geometry_draw(const ang_slice_geometry *geometry, const ang_slice_draw *draw, ang_proxy proxy);
-/* The twelve edges of every node that boxes come from, as lines, with a program of edge.glsl in use. False with
+/* The twelve edges of every block that boxes are parts of, as lines, with a program of edge.glsl in use. False with
  * ANG_LIMIT. */
 bool ang_slice_geometry_draw_edges(const ang_slice_boxes *boxes, const ang_octree *octree, const ang_ray_frame *frame,
                                    ang_error *err);

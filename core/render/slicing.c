@@ -168,7 +168,7 @@ static bool accumulate(ang_renderer *renderer, const ang_slicing *s, const progr
         const ang_slice_draw *draw = &geometry->draw[i];
         double start = ang_now_ms();
         uint64_t uploads = renderer->store.uploads;
-        const ang_volume_texture *texture = ang_brick_store_get(&renderer->store, draw->level, draw->node, err);
+        const ang_volume_texture *texture = ang_brick_store_get(&renderer->store, draw->block.level, draw->block.first, err);
         if (!texture) return false;
         if (texture != bound || uploads != renderer->store.uploads)
             for (int k = 0; k < 2; k++) ang_uniforms_field(use->slices[k], texture, renderer->volume, &s->frame);
@@ -222,7 +222,7 @@ static bool draw_edges(ang_renderer *renderer, const ang_scene *scene, const ang
     glUseProgram(program);
     ang_uniforms_clip_space(program, &s->space);
     /* Many boxes lie one behind the other. */
-    double opacity = fmin(0.4, 6 / sqrt((double)renderer->boxes.nodes + 1));
+    double opacity = fmin(0.4, 6 / sqrt((double)renderer->boxes.blocks + 1));
     ang_uniform_vec4(program, "edge_colour", ang_vec3_scale((ang_vec3){0.95, 0.8, 0.3}, opacity), opacity);
     bool ok = ang_slice_geometry_draw_edges(&renderer->boxes, renderer->octree, &s->frame, err);
     static const GLenum attachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
@@ -261,7 +261,7 @@ static void sum_up(ang_renderer *renderer, const ang_render_options *options, co
                    uint64_t uploads_before, ang_frame_stats *stats) {
     stats->step_mm = s->planes.distance;
     stats->bricks_total = renderer->boxes.leaves_total;
-    stats->bricks_drawn = renderer->boxes.nodes;
+    stats->bricks_drawn = renderer->boxes.blocks;
     stats->bricks_uploaded = renderer->store.uploads - uploads_before;
     stats->octree_ms = s->octree_ms;
     make_note(renderer, options);

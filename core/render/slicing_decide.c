@@ -90,7 +90,7 @@ static void decide_finishing(const ang_renderer *renderer, const ang_scene *scen
 }
 
 static bool same_texture(const void *context, const ang_slice_box *a, const ang_slice_box *b) {
-    return ang_brick_store_same(context, a->level, a->node, b->level, b->node);
+    return ang_brick_store_same(context, a->block.level, a->block.first, b->block.level, b->block.first);
 }
 
 static void decide_order(const ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
@@ -175,7 +175,7 @@ static void explain_boxes(const ang_renderer *renderer, const ang_slicing *s, an
                            s->visibility.mode == ANG_MODE_ISO ? "only the nearest hit shows"
                                                               : "it does not pay with shading, or --passes-steps 1");
     ang_plan_use(plan, "polygons by %s: %zu boxes of the octree, %.0f polygons", ang_proxy_name(s->order.proxy),
-                 boxes->nodes, boxes->polygons);
+                 boxes->blocks, boxes->polygons);
     if (!s->skips) ang_plan_leave_out(plan, "skipping of invisible boxes", "%s", s->why_no_skip);
     if (boxes->leaves_total > boxes->leaves_drawn)
         ang_plan_leave_out(plan, "boxes", "%zu of %zu leaves of the octree: %s%sout of the picture or the clip box",

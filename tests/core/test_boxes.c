@@ -134,15 +134,15 @@ static void descent_stops_where_it_does_not_pay(void **state) {
     s.cut.visibility = &s.visibility;
     s.cut.polygon_cost = 0; /* polygons for nothing: all that is invisible is left out */
     make_boxes(&s, 0.5);
-    size_t fine = s.boxes.nodes, drawn = s.boxes.leaves_drawn;
+    size_t fine = s.boxes.blocks, drawn = s.boxes.leaves_drawn;
     assert_true(drawn < s.boxes.leaves_total);
     s.cut.polygon_cost = 1e9; /* fragments for nothing */
     make_boxes(&s, 0.5);
-    assert_int_equal(s.boxes.nodes, 1);
+    assert_int_equal(s.boxes.blocks, 1);
     assert_int_equal(s.boxes.leaves_drawn, s.boxes.leaves_total);
     s.cut.polygon_cost = 100;
     make_boxes(&s, 0.5);
-    assert_in_range(s.boxes.nodes, 2, fine);
+    assert_in_range(s.boxes.blocks, 2, fine);
     assert_true(s.boxes.leaves_drawn >= drawn);
     double cost = s.boxes.samples + 100 * s.boxes.polygons;
     /* Every forced cut costs more than the one that was chosen. */
@@ -152,7 +152,7 @@ static void descent_stops_where_it_does_not_pay(void **state) {
     assert_true(s.boxes.samples + 100 * s.boxes.polygons >= cost);
     s.cut.visibility = NULL;
     make_boxes(&s, 0.5);
-    assert_int_equal(s.boxes.nodes, s.boxes.leaves_total);
+    assert_int_equal(s.boxes.blocks, s.boxes.leaves_total);
     clear_setting(&s);
 }
 
@@ -161,17 +161,17 @@ static void boxes_out_of_the_picture_are_left_out(void **state) {
     setting s = make_setting("33,21", ANG_PERSPECTIVE, NULL);
     s.cut.to_leaves = true;
     make_boxes(&s, 0.5);
-    size_t all = s.boxes.nodes;
+    size_t all = s.boxes.blocks;
     ang_view view = ang_view_default;
     view.zoom = 8;
     s.scene.camera = ang_camera_for(s.volume, &view);
     make_boxes(&s, 0.5);
-    assert_in_range(s.boxes.nodes, 1, all / 3);
+    assert_in_range(s.boxes.blocks, 1, all / 3);
     uint64_t seed = 3;
     check_rays(&s, &seed);
     s.scene.camera.eye = ang_vec3_along(s.scene.camera.eye, s.scene.camera.forward, 1e4); /* all of it behind */
     make_boxes(&s, 0.5);
-    assert_int_equal(s.boxes.nodes, 0);
+    assert_int_equal(s.boxes.blocks, 0);
     assert_int_equal(s.planes.count, 0);
     clear_setting(&s);
 }
