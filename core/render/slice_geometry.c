@@ -11,7 +11,9 @@
 enum {
     POINTS = 6,         /* of a polygon: Rezk-Salama & Kolb, section 4 */
     FAN_INDICES = 12,   /* four triangles */
-    STRETCH_GROUPS = 64 /* groups of planes of an instance; boxes with more are several instances */
+    STRETCH_GROUPS = 64, /* groups of planes of a stretch; boxes with more are several stretches */
+    DRAW_POLYGONS = 16384,
+    BUFFER_ITEMS = 1 << 18 /* instances or vertices in a buffer; a draw may go beyond */
 };
 
 typedef struct instance {
@@ -25,18 +27,22 @@ typedef struct vertex {
     float owner_lower[3], owner_upper[3];
 } vertex;
 
-/* What grows while the geometry is made. */
-typedef struct builder {
-    ang_slice_geometry *geometry;
-    const ang_slice_planes *planes;
-    const ang_ray_frame *frame;
-    const ang_slice_order *order;
-    double pad_index[3]; /* index units in one mm across the faces of a box */
-    double pad[2];       /* mm: at depth 0, and more for each mm of depth */
-    char *items;         /* instances or vertices */
+/* Boxes are widened by an eighth of a pixel, many times what a rasteriser's grid of sub-pixels is off by, and by far
+ * more than positions in float are. Planes are parallel to the picture, so that what is pushed out across a face is
+ * pushed out at least as far within a plane. */
+typedef struct padding {
+    double index[3]; /* index units in one mm across the faces of a box */
+    double mm[2];    /* at depth 0, and more for each mm of depth */
+} padding;
+
+/* What grows while a buffer is filled. */
+typedef struct filling {
+    const ang_slice_geometry *geometry;
+    padding pad;
+    char *items; /* instances or vertices */
     size_t count, capacity, size;
     ang_error *err;
-} builder;
+} filling;
 
 static void make_static(ang_slice_geometry *geometry) {
     uint8_t corners[STRETCH_GROUPS * POINTS][2];
@@ -97,20 +103,26 @@ static void make_arrays(ang_slice_geometry *geometry) {
     glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
-static void *grow(builder *b, size_t more) {
-    if (b->count + more > b->capacity) {
-        size_t wanted = b->capacity ? 2 * b->capacity : 4096;
-        char *grown = realloc(b->items, wanted * b->size);
-        if (!grown) {
-            ang_fail(b->err, ANG_LIMIT, "no memory for the polygons of the slices; use a larger --step");
-            return NULL;
-        }
-        b->items = grown;
-        b->capacity = wanted;
+/* Room for `more` items beyond `count`; NULL with ANG_LIMIT. */
+static void *room(void *items, size_t size, size_t count, size_t more, size_t *capacity, ang_error *err) {
+    if (count + more <= *capacity) return items;
+    size_t wanted = *capacity ? 2 * *capacity : 1024;
+    while (wanted < count + more) wanted *= 2;
+    void *grown = realloc(items, wanted * size);
+    if (!grown) {
+        ang_fail(err, ANG_LIMIT, "no memory for the polygons of the slices; use a larger --step or fewer --bricks");
+        return NULL;
     }
-    void *place = b->items + b->count * b->size;
-    b->count += more;
-    return place;
+    *capacity = wanted;
+    return grown;
+}
+
+static void *add_items(filling *f, size_t more) {
+    char *items = room(f->items, f->size, f->count, more, &f->capacity, f->err);
+    if (!items) return NULL;
+    f->items = items;
+    f->count += more;
+    return f->items + (f->count - more) * f->size;
 }
 
 /* The samples that a box owns, in float: within the clip box, whose upper faces belong to it. */
@@ -136,41 +148,82 @@ static int size_class(int groups) {
     return size;
 }
 
-/* The draw to which the next polygons of this box belong: the last one, or a new one. */
-static ang_slice_draw *open_draw(builder *b, const ang_slice_box *box, const ang_slice_box *before, int groups,
-                                 bool faces) {
-    ang_slice_geometry *geometry = b->geometry;
-    ang_slice_draw *last = geometry->draws ? &geometry->draw[geometry->draws - 1] : NULL;
-    if (last && last->faces == faces && last->samples < b->order->most_samples &&
+/* The draw to which the next stretch of this box belongs: the last one, or a new one. */
+static ang_slice_draw *open_draw(ang_slice_geometry *g, const ang_slice_box *box, const ang_slice_box *before,
+                                 int groups, bool faces, ang_error *err) {
+    ang_slice_draw *last = g->draws ? &g->draw[g->draws - 1] : NULL;
+    if (last && last->faces == faces && last->samples < g->order->most_samples && last->polygons < DRAW_POLYGONS &&
         size_class(last->groups) == size_class(groups) &&
-        (before == box || b->order->same_texture(b->order->context, before, box)))
+        (before == box || g->order->same_texture(g->order->context, before, box)))
         return last;
-    if (geometry->draws == geometry->capacity) {
-        size_t wanted = geometry->capacity ? 2 * geometry->capacity : 64;
-        ang_slice_draw *grown = realloc(geometry->draw, wanted * sizeof *grown);
-        if (!grown) {
-            ang_fail(b->err, ANG_LIMIT, "no memory for the polygons of the slices; use a larger --step");
-            return NULL;
-        }
-        geometry->draw = grown;
-        geometry->capacity = wanted;
-    }
-    ang_slice_draw *draw = &geometry->draw[geometry->draws++];
-    *draw = (ang_slice_draw){.block = box->block,
-                             .first = (int)b->count,
-                             .faces = faces};
+    ang_slice_draw *draw = room(g->draw, sizeof *g->draw, g->draws, 1, &g->draw_capacity, err);
+    if (!draw) return NULL;
+    g->draw = draw;
+    draw += g->draws++;
+    *draw = (ang_slice_draw){.block = box->block, .begin = g->stretches, .faces = faces};
     return draw;
 }
 
-static bool add_instance(builder *b, const ang_slice_box *box, int begin, int end) {
-    instance *out = grow(b, 1);
-    if (!out) return false;
-    store(out->lower, box->lower);
-    store(out->upper, box->upper);
-    store_owner(b->frame, box, out->owner_lower, out->owner_upper);
-    out->first = begin;
-    out->count = end - begin;
+static bool add_box(ang_slice_geometry *g, const ang_slice_box *box, const ang_slice_box *before, ang_error *err) {
+    const ang_slice_order *order = g->order;
+    int group = order->group, first = box->begin / group, groups = ang_slice_groups(box->begin, box->end, group);
+    int last = (g->planes->count - 1) / group;
+    /* A stretch is one draw's at least: in large pictures it must be short. */
+    double fit = order->most_samples / fmax(box->samples / groups, 1);
+    int length = (int)fmin(fmax(fit, 1), STRETCH_GROUPS), stretches = (groups + length - 1) / length;
+    for (int i = 0; i < stretches; i++) {
+        int stretch = order->back_to_front ? stretches - 1 - i : i;
+        int begin = first + stretch * length;
+        int end = begin + length < first + groups ? begin + length : first + groups;
+        /* The first and the last plane have a neighbour on one side only. */
+        bool faces = box->faces || begin == 0 || end > last;
+        ang_slice_draw *draw = open_draw(g, box, i > 0 ? box : before, end - begin, faces, err);
+        ang_slice_stretch *list = room(g->stretch, sizeof *list, g->stretches, 1, &g->stretch_capacity, err);
+        if (!draw || !list) return false;
+        g->stretch = list;
+        g->stretch[g->stretches++] = (ang_slice_stretch){(size_t)(box - g->list->box), begin, end};
+        draw->end = g->stretches;
+        if (end - begin > draw->groups) draw->groups = end - begin;
+        draw->samples += box->samples * (end - begin) / groups;
+        draw->polygons += (uint64_t)(end - begin);
+    }
     return true;
+}
+
+bool ang_slice_geometry_make(ang_slice_geometry *geometry, const ang_slice_boxes *boxes, const ang_slice_planes *planes,
+                             const ang_ray_frame *frame, const ang_slice_order *order, ang_error *err) {
+    if (!geometry->tables_made) {
+        ang_proxy_tables_make(&geometry->tables);
+        make_arrays(geometry);
+        geometry->tables_made = true;
+    }
+    geometry->list = boxes;
+    geometry->planes = planes;
+    geometry->frame = frame;
+    geometry->order = order;
+    geometry->draws = geometry->stretches = geometry->filled_begin = geometry->filled_end = 0;
+    const ang_slice_box *before = NULL;
+    for (size_t i = 0; i < boxes->count; i++) {
+        const ang_slice_box *box = &boxes->box[order->back_to_front ? boxes->count - 1 - i : i];
+        if (!add_box(geometry, box, before ? before : box, err)) return false;
+        before = box;
+    }
+    return true;
+}
+
+static padding pads(const ang_ray_frame *frame) {
+    padding pad;
+    double pixel = ang_vec3_length(frame->step_x_mm) / 8;
+    ang_vec3 diagonal = ang_mat4_direction(&frame->to_mm, ang_vec3_sub(frame->upper, frame->lower));
+    pad.mm[0] = pixel + 4e-6 * ang_vec3_length(diagonal);
+    pad.mm[1] = 0;
+    if (frame->perspective)
+        pad.mm[1] = pixel / ang_vec3_dot(ang_vec3_sub(frame->origin_mm, frame->eye_mm), frame->axis_mm);
+    for (int axis = 0; axis < 3; axis++) {
+        const double *row = frame->to_index.m[axis];
+        pad.index[axis] = sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+    }
+    return pad;
 }
 
 /* Index units by which a polygon in the middle of its group must reach beyond the box to cover its other planes. */
@@ -178,27 +231,42 @@ static ang_vec3 widening(const ang_slice_order *order) {
     return ang_vec3_scale(order->margin, 0.5 * (order->group - 1));
 }
 
-static double pad_at(const builder *b, double depth) { return b->pad[0] + b->pad[1] * depth; }
+static double pad_at(const padding *pad, double depth) { return pad->mm[0] + pad->mm[1] * depth; }
 
-/* The polygons of groups [begin, end) in the box, cut here. */
-static bool add_polygons(builder *b, const ang_slice_box *box, int begin, int end) {
+static bool add_instance(filling *f, const ang_slice_stretch *stretch) {
+    const ang_slice_box *box = &f->geometry->list->box[stretch->box];
+    instance *out = add_items(f, 1);
+    if (!out) return false;
+    store(out->lower, box->lower);
+    store(out->upper, box->upper);
+    store_owner(f->geometry->frame, box, out->owner_lower, out->owner_upper);
+    out->first = stretch->begin;
+    out->count = stretch->end - stretch->begin;
+    return true;
+}
+
+/* The polygons of a stretch, cut here. */
+static bool add_polygons(filling *f, const ang_slice_stretch *stretch) {
+    const ang_slice_geometry *g = f->geometry;
+    const ang_slice_box *box = &g->list->box[stretch->box];
+    const ang_slice_planes *planes = g->planes;
     double least, greatest;
-    ang_slice_depths(b->planes, box->lower, box->upper, &least, &greatest);
-    double pad = fmax(pad_at(b, least), pad_at(b, greatest));
-    ang_vec3 wider = {pad * b->pad_index[0], pad * b->pad_index[1], pad * b->pad_index[2]};
-    wider = ang_vec3_add(wider, widening(b->order));
+    ang_slice_depths(planes, box->lower, box->upper, &least, &greatest);
+    double pad = fmax(pad_at(&f->pad, least), pad_at(&f->pad, greatest));
+    ang_vec3 wider = ang_vec3_scale((ang_vec3){f->pad.index[0], f->pad.index[1], f->pad.index[2]}, pad);
+    wider = ang_vec3_add(wider, widening(g->order));
     ang_slicer slicer;
-    ang_slicer_make(&slicer, ang_vec3_sub(box->lower, wider), ang_vec3_add(box->upper, wider), b->planes->gradient);
+    ang_slicer_make(&slicer, ang_vec3_sub(box->lower, wider), ang_vec3_add(box->upper, wider), planes->gradient);
     float owner_lower[3], owner_upper[3];
-    store_owner(b->frame, box, owner_lower, owner_upper);
-    for (int i = begin; i < end; i++) {
-        int group = b->order->back_to_front ? end - 1 - (i - begin) : i;
+    store_owner(g->frame, box, owner_lower, owner_upper);
+    for (int i = stretch->begin; i < stretch->end; i++) {
+        int group = g->order->back_to_front ? stretch->end - 1 - (i - stretch->begin) : i;
         ang_vec3 triangles[ANG_PROXY_MOST_TRIANGLES][3];
-        double middle = group * b->order->group + 0.5 * (b->order->group - 1);
-        double depth = b->planes->first + middle * b->planes->distance - b->planes->offset;
-        int count = ang_proxy_slice(&b->geometry->tables, b->order->proxy, &slicer, depth, triangles);
+        double middle = group * g->order->group + 0.5 * (g->order->group - 1);
+        double depth = planes->first + middle * planes->distance - planes->offset;
+        int count = ang_proxy_slice(&g->tables, g->order->proxy, &slicer, depth, triangles);
         if (count == 0) continue;
-        vertex *out = grow(b, 3 * (size_t)count);
+        vertex *out = add_items(f, 3 * (size_t)count);
         if (!out) return false;
         for (int v = 0; v < 3 * count; v++) {
             store(out[v].place, triangles[v / 3][v % 3]);
@@ -210,84 +278,47 @@ static bool add_polygons(builder *b, const ang_slice_box *box, int begin, int en
     return true;
 }
 
-static bool add_box(builder *b, const ang_slice_box *box, const ang_slice_box *before) {
-    int group = b->order->group, first = box->begin / group, groups = ang_slice_groups(box->begin, box->end, group);
-    int last = (b->planes->count - 1) / group;
-    /* A stretch is one draw's at least: in large pictures it must be short. */
-    double fit = b->order->most_samples / fmax(box->samples / groups, 1);
-    int length = (int)fmin(fmax(fit, 1), STRETCH_GROUPS), stretches = (groups + length - 1) / length;
-    for (int i = 0; i < stretches; i++) {
-        int stretch = b->order->back_to_front ? stretches - 1 - i : i;
-        int begin = first + stretch * length;
-        int end = begin + length < first + groups ? begin + length : first + groups;
-        /* The first and the last plane have a neighbour on one side only. */
-        bool faces = box->faces || begin == 0 || end > last;
-        ang_slice_draw *draw = open_draw(b, box, i > 0 ? box : before, end - begin, faces);
-        if (!draw) return false;
-        bool ok = b->order->proxy == ANG_PROXY_VERTEX_PROGRAM ? add_instance(b, box, begin, end)
-                                                              : add_polygons(b, box, begin, end);
-        if (!ok) return false;
-        draw->count = (int)b->count - draw->first;
-        if (end - begin > draw->groups) draw->groups = end - begin;
-        draw->samples += box->samples * (end - begin) / groups;
-        draw->polygons += (uint64_t)(end - begin);
-    }
-    return true;
-}
-
-/* Widens boxes by an eighth of a pixel, many times what a rasteriser's grid of sub-pixels is off by, and by far more
- * than positions in float are. Planes are parallel to the picture, so that what is pushed out across a face is pushed
- * out at least as far within a plane. */
-static void set_pads(builder *b) {
-    const ang_ray_frame *frame = b->frame;
-    double pixel = ang_vec3_length(frame->step_x_mm) / 8;
-    ang_vec3 diagonal = ang_mat4_direction(&frame->to_mm, ang_vec3_sub(frame->upper, frame->lower));
-    b->pad[0] = pixel + 4e-6 * ang_vec3_length(diagonal);
-    b->pad[1] = 0;
-    if (frame->perspective)
-        b->pad[1] = pixel / ang_vec3_dot(ang_vec3_sub(frame->origin_mm, frame->eye_mm), frame->axis_mm);
-    for (int axis = 0; axis < 3; axis++) {
-        const double *row = frame->to_index.m[axis];
-        b->pad_index[axis] = sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
-    }
-}
-
-static bool add_boxes(builder *b, const ang_slice_boxes *boxes) {
-    const ang_slice_box *before = NULL;
-    for (size_t i = 0; i < boxes->count; i++) {
-        const ang_slice_box *box = &boxes->box[b->order->back_to_front ? boxes->count - 1 - i : i];
-        if (!add_box(b, box, before ? before : box)) return false;
-        before = box;
-    }
-    return true;
-}
-
-bool ang_slice_geometry_make(ang_slice_geometry *geometry, ang_gl *gl, const ang_slice_boxes *boxes,
-                             const ang_slice_planes *planes, const ang_ray_frame *frame, const ang_slice_order *order,
-                             ang_error *err) {
-    if (!geometry->tables_made) {
-        ang_proxy_tables_make(&geometry->tables);
-        make_arrays(geometry);
-        geometry->tables_made = true;
-    }
-    bool instanced = order->proxy == ANG_PROXY_VERTEX_PROGRAM;
-    builder b = {.geometry = geometry,
-                 .planes = planes,
-                 .frame = frame,
-                 .order = order,
+/* Fills the buffer with draw `first` and as many after it as there is room for. */
+static bool fill(ang_slice_geometry *g, ang_gl *gl, size_t first, ang_error *err) {
+    bool instanced = g->order->proxy == ANG_PROXY_VERTEX_PROGRAM, ok = true;
+    filling f = {.geometry = g,
+                 .pad = pads(g->frame),
                  .size = instanced ? sizeof(instance) : sizeof(vertex),
                  .err = err};
-    set_pads(&b);
-    geometry->draws = 0;
-    bool ok = add_boxes(&b, boxes);
+    size_t draw = first;
+    for (; draw < g->draws && f.count < BUFFER_ITEMS && ok; draw++) {
+        ang_slice_draw *now = &g->draw[draw];
+        now->first = (int)f.count;
+        for (size_t i = now->begin; i < now->end && ok; i++)
+            ok = instanced ? add_instance(&f, &g->stretch[i]) : add_polygons(&f, &g->stretch[i]);
+        now->count = (int)f.count - now->first;
+    }
     if (ok) {
-        glBindBuffer(GL_ARRAY_BUFFER, instanced ? geometry->boxes : geometry->polygons);
-        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(b.count * b.size), b.items, GL_STREAM_DRAW);
+        glBindBuffer(GL_ARRAY_BUFFER, instanced ? g->boxes : g->polygons);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(f.count * f.size), f.items, GL_STREAM_DRAW);
         glBindBuffer(GL_ARRAY_BUFFER, 0);
+        g->filled_begin = first;
+        g->filled_end = draw;
         ok = ang_gl_check(gl, err);
     }
-    free(b.items);
+    free(f.items);
     return ok;
+}
+
+bool ang_slice_geometry_draw(ang_slice_geometry *geometry, ang_gl *gl, size_t which, ang_error *err) {
+    bool there = which >= geometry->filled_begin && which < geometry->filled_end;
+    if (!there && !fill(geometry, gl, which, err)) return false;
+    const ang_slice_draw *draw = &geometry->draw[which];
+    if (geometry->order->proxy == ANG_PROXY_VERTEX_PROGRAM) {
+        glBindVertexArray(geometry->box_vertices);
+        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, FAN_INDICES * draw->groups, GL_UNSIGNED_SHORT, NULL,
+                                            draw->count, (GLuint)draw->first);
+    } else {
+        glBindVertexArray(geometry->poly_vertices);
+        glDrawArrays(GL_TRIANGLES, draw->first, draw->count);
+    }
+    glBindVertexArray(0);
+    return true;
 }
 
 void ang_slice_geometry_destroy(ang_slice_geometry *geometry) {
@@ -295,6 +326,7 @@ void ang_slice_geometry_destroy(ang_slice_geometry *geometry) {
     GLuint arrays[] = {geometry->box_vertices, geometry->poly_vertices};
     glDeleteBuffers(4, buffers);
     glDeleteVertexArrays(2, arrays);
+    free(geometry->stretch);
     free(geometry->draw);
     *geometry = (ang_slice_geometry){0};
 }
@@ -321,32 +353,19 @@ void ang_slice_geometry_parts(ang_proxy proxy, int group, ang_shader_source *ver
 void ang_slice_geometry_uniforms(const ang_slice_geometry *geometry, unsigned program, const ang_slice_planes *planes,
                                  const ang_ray_frame *frame, const ang_clip_space *space,
                                  const ang_slice_order *order) {
-    builder b = {.frame = frame};
-    set_pads(&b);
+    padding pad = pads(frame);
     ang_uniforms_clip_space(program, space);
     ang_uniform_vec4(program, "slice_gradient", planes->gradient, planes->offset);
     int front = 0;
     for (int axis = 0; axis < 3; axis++) front |= ang_vec3_at(planes->gradient, axis) < 0 ? 1 << axis : 0;
     ang_uniform_int(program, "slice_front", front);
-    ang_uniform_vec3(program, "slice_pad_index", (ang_vec3){b.pad_index[0], b.pad_index[1], b.pad_index[2]});
-    glProgramUniform2f(program, glGetUniformLocation(program, "slice_pad"), (float)b.pad[0], (float)b.pad[1]);
+    ang_uniform_vec3(program, "slice_pad_index", (ang_vec3){pad.index[0], pad.index[1], pad.index[2]});
+    glProgramUniform2f(program, glGetUniformLocation(program, "slice_pad"), (float)pad.mm[0], (float)pad.mm[1]);
     ang_uniform_vec3(program, "slice_widen", widening(order));
     ang_uniform_int(program, "slice_reverse", order->back_to_front);
     ang_uniform_ints(program, "vertex_sequence", &geometry->tables.sequence[0][0], 64);
     ang_uniform_ints(program, "edge_from", geometry->tables.v1, 24);
     ang_uniform_ints(program, "edge_to", geometry->tables.v2, 24);
-}
-
-void ang_slice_geometry_draw(const ang_slice_geometry *geometry, const ang_slice_draw *draw, ang_proxy proxy) {
-    if (proxy == ANG_PROXY_VERTEX_PROGRAM) {
-        glBindVertexArray(geometry->box_vertices);
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, FAN_INDICES * draw->groups, GL_UNSIGNED_SHORT, NULL,
-                                            draw->count, (GLuint)draw->first);
-    } else {
-        glBindVertexArray(geometry->poly_vertices);
-        glDrawArrays(GL_TRIANGLES, draw->first, draw->count);
-    }
-    glBindVertexArray(0);
 }
 
 bool ang_slice_geometry_draw_edges(const ang_slice_boxes *boxes, const ang_octree *octree, const ang_ray_frame *frame,

@@ -158,7 +158,7 @@ static bool get_programs(ang_renderer *renderer, const ang_slice_recipe *recipe,
 /* Draws all slices; the accumulated target is bound. */
 static bool accumulate(ang_renderer *renderer, const ang_slicing *s, const programs *use, ang_frame_stats *stats,
                        const ang_progress *progress, ang_error *err) {
-    const ang_slice_geometry *geometry = &renderer->geometry;
+    ang_slice_geometry *geometry = &renderer->geometry;
     const ang_volume_texture *bound = NULL;
     double drawn = 0, since_look = 0, since_stop = 0, total = fmax(renderer->boxes.samples, 1);
     double interval = s->order.most_samples,
@@ -175,7 +175,7 @@ static bool accumulate(ang_renderer *renderer, const ang_slicing *s, const progr
         if (uploads != renderer->store.uploads) stats->upload_ms += ang_now_ms() - start;
         bound = texture;
         glUseProgram(use->slices[draw->faces]);
-        ang_slice_geometry_draw(geometry, draw, s->order.proxy);
+        if (!ang_slice_geometry_draw(geometry, renderer->gl, i, err)) return false;
         stats->polygons += draw->polygons;
         drawn += draw->samples;
         since_look += draw->samples;
@@ -279,8 +279,7 @@ static bool draw(ang_renderer *renderer, const ang_scene *scene, const ang_rende
     if (!get_programs(renderer, &recipe, &use, err) ||
         !ang_target_resize(&renderer->accumulated, renderer->gl, scene->width, scene->height, parts, err) ||
         (use.resolve && !ang_target_resize(&renderer->resolved, renderer->gl, scene->width, scene->height, 0, err)) ||
-        !ang_slice_geometry_make(&renderer->geometry, renderer->gl, &renderer->boxes, &s->planes, &s->frame, &s->order,
-                                 err))
+        !ang_slice_geometry_make(&renderer->geometry, &renderer->boxes, &s->planes, &s->frame, &s->order, err))
         return false;
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->accumulated.framebuffer);
     glViewport(0, 0, scene->width, scene->height);
