@@ -73,12 +73,16 @@ static const option_spec table[] = {
                   "how --method slicing cuts its polygons"),
     FLAG_OPTION("no-skip", 0, ANG_VERB_RENDER, no_skip, "draw what is invisible too"),
     TEXT_OPTION("bricks", ANG_VERB_RENDER, bricks, "NxNxN", NULL,
-                "slicing: bricks along each axis, every visible one drawn; default: octree boxes where they pay"),
+                "slicing: this many bricks along each axis, or as many as cells allow, every visible one drawn; "
+                "default: octree "
+                "boxes where they pay"),
     INTEGER_OPTION("passes-steps", ANG_VERB_RENDER, pass_steps, 0, 64, "0",
                    "slicing: planes that a fragment composites before it blends: 1, 2 or 4; 0: as many as pay"),
     FLAG_OPTION("show-bricks", 0, ANG_VERB_RENDER, show_bricks, "slicing: draw the edges of the boxes"),
-    REAL_OPTION("gpu-memory", ANG_VERB_RENDER, gpu_memory, "MB", 0.001, 1e9, NULL, "MB",
-                "most memory that the volume's textures take; a larger volume is drawn in bricks by slicing"),
+    REAL_OPTION(
+        "gpu-memory", ANG_VERB_RENDER, gpu_memory, "MB", 0.001, 1e9, NULL, "MB",
+        "most memory that the volume's textures take; a larger volume is drawn in bricks by slicing (it stays whole in "
+        "main memory)"),
     FLAG_OPTION("explain", 0, ANG_VERB_RENDER, explain, "say what the picture takes and what is left out, and why"),
     FLAG_OPTION("manual-filter", 0, ANG_VERB_RENDER, manual_filter,
                 "interpolate in the shader instead of the texture unit, to verify filtering"),

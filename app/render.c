@@ -14,6 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Voxels: a step beyond this misses structures of a few voxels, and a user is told. */
+static const double coarse_step = 2;
+
 /* All that one call holds, so that it can be let go of in one place. */
 typedef struct session {
     const ang_options *options;
@@ -51,6 +54,22 @@ static bool open_gl(session *run, ang_backend backend, ang_error *err) {
     return true;
 }
 
+/* Options that leave this method as it is. */
+static void note_ignored(session *run) {
+    static const struct {
+        unsigned takes;
+        const char *option;
+    } names[] = {{ANG_TAKES_TERMINATION, "--termination"}, {ANG_TAKES_MANUAL_FILTER, "--manual-filter"},
+                 {ANG_TAKES_NO_SKIP, "--no-skip"},         {ANG_TAKES_PROXY, "--proxy"},
+                 {ANG_TAKES_BRICKS, "--bricks"},           {ANG_TAKES_PASS_STEPS, "--passes-steps"},
+                 {ANG_TAKES_SHOW_BRICKS, "--show-bricks"}, {ANG_TAKES_GPU_MEMORY, "--gpu-memory"}};
+    unsigned ignored = ang_method_ignores(run->method, &run->picture.render);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (ignored & names[i].takes)
+            ang_notes_add(&run->summary.warnings, "%s has no effect with --method %s", names[i].option,
+                          run->method->name);
+}
+
 /* Finds the method and, where it needs one, a GL context. */
 static bool open_renderer(session *run, ang_error *err) {
     const char *name = run->options->method, *why = "--method";
@@ -67,6 +86,7 @@ static bool open_renderer(session *run, ang_error *err) {
     double start = ang_now_ms();
     run->renderer = run->method->create(run->gl, run->volume, &run->picture.render, err);
     run->summary.upload_ms = ang_now_ms() - start;
+    note_ignored(run);
     return run->renderer != NULL;
 }
 
@@ -101,6 +121,12 @@ static void note_step(session *run) {
         ang_notes_add(&run->summary.warnings,
                       "the step of %.3g mm is finer than method %s can go here: %.3g mm was used", wanted,
                       run->method->name, run->summary.stats.step_mm);
+    if (run->picture.render.step_voxels > coarse_step && run->summary.stats.step_mm > 0)
+        ang_notes_add(&run->summary.warnings,
+                      "samples lie %.3g mm apart, %.3g voxels: what is thinner may be missed, so --step %g is for "
+                      "glances only",
+                      run->summary.stats.step_mm, run->summary.stats.step_mm / ang_volume_smallest_spacing(run->volume),
+                      run->picture.render.step_voxels);
 }
 
 /* A picture with nothing in it is seldom what was wanted. */
@@ -124,9 +150,14 @@ static bool explain(session *run, ang_error *err) {
     ang_plan_leave_out(plan, "window system", "headless");
     if (!run->options->explain) return true;
     for (size_t i = 0; i < plan->uses.count; i++) fprintf(stderr, "uses      %s\n", plan->uses.item[i].what);
-    for (size_t i = 0; i < plan->pass_count; i++)
-        fprintf(stderr, "pass      %s: %d lookups a sample; %s\n", plan->pass[i].name, plan->pass[i].lookups,
-                plan->pass[i].parts);
+    for (size_t i = 0; i < plan->pass_count; i++) {
+        const ang_plan_pass *pass = &plan->pass[i];
+        int vertex = (int)strcspn(pass->parts, "|");
+        fprintf(stderr, "pass      %s: %d lookup%s a sample\n", pass->name, pass->lookups,
+                pass->lookups == 1 ? "" : "s");
+        fprintf(stderr, "          vertex parts:   %.*s\n", vertex, pass->parts);
+        if (pass->parts[vertex]) fprintf(stderr, "          fragment parts:%s\n", pass->parts + vertex + 1);
+    }
     for (size_t i = 0; i < plan->left_out.count; i++)
         fprintf(stderr, "left out  %s: %s\n", plan->left_out.item[i].what, plan->left_out.item[i].why);
     return true;

@@ -151,6 +151,7 @@ bool ang_render_json_write(const char *path, const ang_volume *volume, const ang
     ang_json_add_number(counts, "samples", (double)summary->stats.samples);
     ang_json_add_number(counts, "bricks_drawn", (double)summary->stats.bricks_drawn);
     ang_json_add_number(counts, "bricks_total", (double)summary->stats.bricks_total);
+    ang_json_add_number(counts, "boxes", (double)summary->stats.boxes);
     ang_json_add_number(counts, "bricks_uploaded", (double)summary->stats.bricks_uploaded);
     bool unknown = summary->stats.fragments == 0 && summary->stats.samples > 0;
     ang_json_add_number(counts, "fragments", unknown ? NAN : (double)summary->stats.fragments);

@@ -48,9 +48,9 @@ typedef struct ang_slice_cut {
 } ang_slice_cut;
 
 /* Traverses the tree top-down, children in the order of view, and leaves out what is invisible, outside the clip box or
- * outside the picture. Beyond the paper: where not all eight children are drawn, or not alike, neighbours among them are
- * joined to one box where that costs less. Adds to `boxes` after emptying it; zero-initialise it first, free with ang_slice_boxes_clear.
- * False with ANG_LIMIT. */
+ * outside the picture. Beyond the paper: where not all eight children are drawn, or not alike, neighbours among them
+ * are joined to one box where that costs less. Adds to `boxes` after emptying it; zero-initialise it first, free with
+ * ang_slice_boxes_clear. False with ANG_LIMIT. */
 bool ang_slice_boxes_make(ang_slice_boxes *boxes, const ang_octree *octree, const ang_ray_frame *frame,
                           const ang_slice_planes *planes, const ang_clip_space *space, const ang_slice_cut *cut,
                           ang_error *err);

@@ -9,7 +9,8 @@
 struct ang_brick_slot {
     ang_volume_texture texture;
     int node[3];
-    uint64_t used; /* clock when it was asked for last */
+    uint64_t used;    /* clock when it was asked for last */
+    uint64_t picture; /* and which picture that was for */
 };
 
 /* Cells a side of a brick: smaller ones share more of their voxels with neighbours, greater ones are left out less
@@ -17,7 +18,7 @@ struct ang_brick_slot {
 enum { WANTED_CELLS = 128, LEAST_SLOTS = 8 };
 
 static void tell_budget(ang_brick_store *store, size_t bytes) {
-    snprintf(store->reason, sizeof store->reason, "its %.6g MB are more than --gpu-memory %.6g", (double)bytes / 1e6,
+    snprintf(store->reason, sizeof store->reason, "its %.1f MB are more than --gpu-memory %.6g", (double)bytes / 1e6,
              (double)store->budget / 1e6);
 }
 
@@ -67,6 +68,7 @@ static bool is_wanted_size(const ang_brick_store *store, const int dims[3], size
 }
 
 bool ang_brick_store_arrange(ang_brick_store *store, const ang_octree *octree, ang_brick_needs needs, ang_error *err) {
+    store->picture++;
     size_t with_weight = 2 * ang_volume_count(store->volume) * sizeof *store->volume->data;
     if (store->whole && needs.weight && store->budget && with_weight > store->budget) {
         ang_volume_texture_destroy(&store->texture);
@@ -111,13 +113,22 @@ bool ang_brick_store_same(const ang_brick_store *store, int level_a, const int a
     return true;
 }
 
-/* A free slot, or the one that was used longest ago. */
+/* Whether the brick in `a` is needed later than that in `b`: one that the last picture did without is not expected at
+ * all; then one that this picture is done with, the last one first, since the next picture begins at the other end. */
+static bool is_needed_later(const ang_brick_store *store, const struct ang_brick_slot *a,
+                            const struct ang_brick_slot *b) {
+    bool idle_a = a->picture + 1 < store->picture, idle_b = b->picture + 1 < store->picture;
+    if (idle_a != idle_b) return idle_a;
+    return idle_a ? a->used < b->used : a->used > b->used;
+}
+
+/* A free slot, or the one whose brick is needed last. */
 static struct ang_brick_slot *make_room(ang_brick_store *store) {
     if (store->used < store->slots) return &store->slot[store->used++];
-    struct ang_brick_slot *oldest = &store->slot[0];
+    struct ang_brick_slot *last = &store->slot[0];
     for (size_t i = 1; i < store->used; i++)
-        if (store->slot[i].used < oldest->used) oldest = &store->slot[i];
-    return oldest;
+        if (is_needed_later(store, &store->slot[i], last)) last = &store->slot[i];
+    return last;
 }
 
 const ang_volume_texture *ang_brick_store_get(ang_brick_store *store, int level, const int node[3], ang_error *err) {
@@ -128,11 +139,13 @@ const ang_volume_texture *ang_brick_store_get(ang_brick_store *store, int level,
     for (size_t i = 0; i < store->used; i++)
         if (memcmp(store->slot[i].node, brick, sizeof brick) == 0) {
             store->slot[i].used = store->clock;
+            store->slot[i].picture = store->picture;
             return &store->slot[i].texture;
         }
     struct ang_brick_slot *slot = make_room(store);
     memcpy(slot->node, brick, sizeof brick);
     slot->used = store->clock;
+    slot->picture = store->picture;
     ang_octree_cells(store->octree, store->level, brick, first, end);
     for (int axis = 0; axis < 3; axis++) first[axis] -= store->needs.reach;
     bool ok = ang_volume_texture_set_part(&slot->texture, store->gl, store->volume, first, store->dims, err) &&

@@ -13,7 +13,8 @@ typedef struct ang_brick_needs {
 } ang_brick_needs;
 
 /* Zero-initialise. Bricks are nodes of one level of an octree, all textures of one size. Textures are filled when they
- * are asked for; where the budget is full the one that was used longest ago makes room. */
+ * are asked for; where the budget is full one makes room that is not needed soon, so that a still view that needs more
+ * bricks than fit uploads only those that do not. */
 typedef struct ang_brick_store {
     ang_gl *gl;
     const ang_volume *volume;
@@ -29,7 +30,8 @@ typedef struct ang_brick_store {
     int dims[3]; /* texels of a brick */
     struct ang_brick_slot *slot;
     size_t slots, used;
-    uint64_t clock;
+    uint64_t clock;   /* counts what is asked for */
+    uint64_t picture; /* counts ang_brick_store_arrange */
     uint64_t uploads; /* bricks filled since the store was made */
 } ang_brick_store;
 
@@ -38,7 +40,8 @@ typedef struct ang_brick_store {
 bool ang_brick_store_make(ang_brick_store *store, ang_gl *gl, const ang_volume *volume, size_t budget, ang_error *err);
 void ang_brick_store_destroy(ang_brick_store *store);
 
-/* Prepares for drawing with this octree. Bricks are nodes of about 128 cells a side, smaller where the budget holds too
+/* Prepares for drawing a picture with this octree; its boxes must then come in an order that is done with one brick
+ * before it begins the next. Bricks are nodes of about 128 cells a side, smaller where the budget holds too
  * few of those; what they held stays where nothing has changed. False with ANG_LIMIT where the budget does not hold
  * even the least brick, naming what it must be. */
 bool ang_brick_store_arrange(ang_brick_store *store, const ang_octree *octree, ang_brick_needs needs, ang_error *err);

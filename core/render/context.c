@@ -138,7 +138,10 @@ bool ang_gl_check(ang_gl *gl, ang_error *err) {
     for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; i++) {
     }
     if (code == GL_NO_ERROR && !gl->complaint[0]) return true;
-    if (gl->complaint[0])
+    if (code == GL_OUT_OF_MEMORY || strstr(gl->complaint, "GL_OUT_OF_MEMORY"))
+        ang_fail(err, ANG_LIMIT, "OpenGL (%s) is out of memory: a smaller --size or --gpu-memory may help",
+                 gl->renderer);
+    else if (gl->complaint[0])
         ang_fail(err, ANG_GL, "OpenGL (%s): %s", gl->renderer, gl->complaint);
     else
         ang_fail(err, ANG_GL, "OpenGL (%s): error 0x%04x", gl->renderer, code);

@@ -33,13 +33,26 @@ typedef struct ang_frame_stats {
     uint64_t fragments; /* rays shaded; slicing: fragments, those that hold no sample included; 0: not known */
     double step_mm;     /* sampling distance used, greater than asked for where the method has a limit; 0: exact */
     uint64_t bricks_drawn,
-        bricks_total;            /* boxes drawn, and how many of the smallest there are; 1 of 1 without bricks */
+        bricks_total;            /* the smallest blocks that can be skipped, and those of them drawn; 1 without any */
+    uint64_t boxes;              /* slicing: what those drawn are joined to */
     uint64_t polygons;           /* slicing: polygons sent to OpenGL */
     int passes;                  /* times that the picture's pixels were gone over */
     uint64_t bricks_uploaded;    /* textures filled for this frame */
     double octree_ms, upload_ms; /* part of the frame's time that went into these */
     const char *note;            /* a sentence for the user, or NULL; valid until the renderer\'s next call */
 } ang_frame_stats;
+
+/* Which of the options a method takes; step_voxels and threads go without saying. */
+typedef enum ang_method_takes {
+    ANG_TAKES_TERMINATION = 1,
+    ANG_TAKES_MANUAL_FILTER = 2,
+    ANG_TAKES_NO_SKIP = 4,
+    ANG_TAKES_PROXY = 8,
+    ANG_TAKES_BRICKS = 16,
+    ANG_TAKES_PASS_STEPS = 32,
+    ANG_TAKES_SHOW_BRICKS = 64,
+    ANG_TAKES_GPU_MEMORY = 128
+} ang_method_takes;
 
 typedef struct ang_gl ang_gl;             /* core/render/context.h */
 typedef struct ang_renderer ang_renderer; /* opaque, one per method and volume */
@@ -51,6 +64,7 @@ typedef struct ang_method {
     const char *title;  /* one line */
     const char *source; /* paper */
     bool needs_gl;
+    unsigned takes; /* ang_method_takes */
     /* A renderer of this volume, which must outlive it; `gl` is NULL where needs_gl is false. Of `options`, gpu_memory
      * holds for the renderer's life. NULL with ANG_GL, ANG_LIMIT. */
     ang_renderer *(*create)(ang_gl *gl, const ang_volume *volume, const ang_render_options *options, ang_error *err);
@@ -64,6 +78,9 @@ typedef struct ang_method {
                     ang_error *err);
     void (*destroy)(ang_renderer *renderer);
 } ang_method;
+
+/* The options that differ from the default but that `method` does not take, as a set of ang_method_takes. */
+unsigned ang_method_ignores(const ang_method *method, const ang_render_options *options);
 
 /* All methods, NULL at the end; and the one of a name or NULL. */
 const ang_method *const *ang_methods(void);

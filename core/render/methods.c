@@ -14,6 +14,22 @@ const ang_method *ang_method_find(const char *name) {
     return NULL;
 }
 
+unsigned ang_method_ignores(const ang_method *method, const ang_render_options *options) {
+    const ang_render_options *usual = &ang_render_options_default;
+    const int *bricks = options->bricks;
+    unsigned given = 0;
+    if (options->termination < usual->termination || options->termination > usual->termination)
+        given |= ANG_TAKES_TERMINATION;
+    if (options->manual_filter) given |= ANG_TAKES_MANUAL_FILTER;
+    if (options->no_skip) given |= ANG_TAKES_NO_SKIP;
+    if (options->proxy != usual->proxy) given |= ANG_TAKES_PROXY;
+    if (bricks[0] || bricks[1] || bricks[2]) given |= ANG_TAKES_BRICKS;
+    if (options->pass_steps) given |= ANG_TAKES_PASS_STEPS;
+    if (options->show_bricks) given |= ANG_TAKES_SHOW_BRICKS;
+    if (options->gpu_memory) given |= ANG_TAKES_GPU_MEMORY;
+    return given & ~method->takes;
+}
+
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                                     const ang_render_options *options, const char **why) {
     *why = "there is no OpenGL";

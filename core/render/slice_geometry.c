@@ -9,8 +9,8 @@
 #include <string.h>
 
 enum {
-    POINTS = 6,         /* of a polygon: Rezk-Salama & Kolb, section 4 */
-    FAN_INDICES = 12,   /* four triangles */
+    POINTS = 6,          /* of a polygon: Rezk-Salama & Kolb, section 4 */
+    FAN_INDICES = 12,    /* four triangles */
     STRETCH_GROUPS = 64, /* groups of planes of a stretch; boxes with more are several stretches */
     DRAW_POLYGONS = 16384,
     BUFFER_ITEMS = 1 << 18 /* instances or vertices in a buffer; a draw may go beyond */
@@ -281,10 +281,8 @@ static bool add_polygons(filling *f, const ang_slice_stretch *stretch) {
 /* Fills the buffer with draw `first` and as many after it as there is room for. */
 static bool fill(ang_slice_geometry *g, ang_gl *gl, size_t first, ang_error *err) {
     bool instanced = g->order->proxy == ANG_PROXY_VERTEX_PROGRAM, ok = true;
-    filling f = {.geometry = g,
-                 .pad = pads(g->frame),
-                 .size = instanced ? sizeof(instance) : sizeof(vertex),
-                 .err = err};
+    filling f = {
+        .geometry = g, .pad = pads(g->frame), .size = instanced ? sizeof(instance) : sizeof(vertex), .err = err};
     size_t draw = first;
     for (; draw < g->draws && f.count < BUFFER_ITEMS && ok; draw++) {
         ang_slice_draw *now = &g->draw[draw];

@@ -168,7 +168,8 @@ static bool accumulate(ang_renderer *renderer, const ang_slicing *s, const progr
         const ang_slice_draw *draw = &geometry->draw[i];
         double start = ang_now_ms();
         uint64_t uploads = renderer->store.uploads;
-        const ang_volume_texture *texture = ang_brick_store_get(&renderer->store, draw->block.level, draw->block.first, err);
+        const ang_volume_texture *texture =
+            ang_brick_store_get(&renderer->store, draw->block.level, draw->block.first, err);
         if (!texture) return false;
         if (texture != bound || uploads != renderer->store.uploads)
             for (int k = 0; k < 2; k++) ang_uniforms_field(use->slices[k], texture, renderer->volume, &s->frame);
@@ -239,32 +240,45 @@ static bool read_counts(const ang_target *target, ang_frame_stats *stats, ang_er
     return true;
 }
 
-static void make_note(ang_renderer *renderer, const ang_render_options *options) {
+/* What the user should know, in one sentence. */
+static void make_note(ang_renderer *renderer, const ang_render_options *options, const ang_slicing *s,
+                      uint64_t uploaded) {
     const ang_brick_store *store = &renderer->store;
     const int *made = renderer->octree->level[0].dims, *asked = options->bricks;
-    renderer->note[0] = '\0';
+    char *note = renderer->note;
+    size_t room = sizeof renderer->note;
+    int used = 0;
+    note[0] = '\0';
+    double slant = s->length / (1.01 * s->planes.distance);
+    if (slant > 2)
+        used = snprintf(note, room,
+                        "planes lie %.3g mm apart, but rays at the corners of so wide a field of view cross them every "
+                        "%.3g mm: --method singlepass samples all rays alike%s",
+                        s->planes.distance, slant * s->planes.distance, store->whole ? "" : "; ");
     bool other = asked[0] != made[0] || asked[1] != made[1] || asked[2] != made[2];
     if (store->whole && asked[0] > 0 && other)
-        snprintf(renderer->note, sizeof renderer->note,
-                 "--bricks %dx%dx%d: bricks of equal size are %dx%dx%d, of %dx%dx%d cells each", asked[0], asked[1],
-                 asked[2], made[0], made[1], made[2], renderer->octree->leaf[0], renderer->octree->leaf[1],
-                 renderer->octree->leaf[2]);
+        snprintf(note + used, room - (size_t)used,
+                 "%s--bricks %dx%dx%d: bricks of equal size are %dx%dx%d, of %dx%dx%d cells each", used ? "; " : "",
+                 asked[0], asked[1], asked[2], made[0], made[1], made[2], renderer->octree->leaf[0],
+                 renderer->octree->leaf[1], renderer->octree->leaf[2]);
     if (store->whole) return;
     const ang_octree_level *nodes = &store->octree->level[store->level];
-    snprintf(renderer->note, sizeof renderer->note,
-             "the volume is drawn in bricks, since %s: %d x %d x %d of up to %d x %d x %d voxels, %zu held at once",
+    snprintf(note + used, room - (size_t)used,
+             "the volume is drawn in bricks, since %s: %d x %d x %d of up to %d x %d x %d voxels, %zu held at once, "
+             "%llu uploaded for this picture",
              store->reason, nodes->dims[0], nodes->dims[1], nodes->dims[2], store->dims[0], store->dims[1],
-             store->dims[2], store->slots);
+             store->dims[2], store->slots, (unsigned long long)uploaded);
 }
 
 static void sum_up(ang_renderer *renderer, const ang_render_options *options, const ang_slicing *s,
                    uint64_t uploads_before, ang_frame_stats *stats) {
     stats->step_mm = s->planes.distance;
     stats->bricks_total = renderer->boxes.leaves_total;
-    stats->bricks_drawn = renderer->boxes.blocks;
+    stats->bricks_drawn = renderer->boxes.leaves_drawn;
+    stats->boxes = renderer->boxes.blocks;
     stats->bricks_uploaded = renderer->store.uploads - uploads_before;
     stats->octree_ms = s->octree_ms;
-    make_note(renderer, options);
+    make_note(renderer, options, s, stats->bricks_uploaded);
     stats->note = renderer->note[0] ? renderer->note : NULL;
 }
 
@@ -332,6 +346,8 @@ const ang_method ang_method_slicing = {
         "Rezk-Salama & Kolb, A Vertex Program for Efficient Box-Plane Intersection, VMV 2005; Benassarou, Bittar, "
         "John & Lucas, MC Slicing for Volume Rendering Applications, ICCS 2005",
     .needs_gl = true,
+    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_PROXY | ANG_TAKES_BRICKS |
+             ANG_TAKES_PASS_STEPS | ANG_TAKES_SHOW_BRICKS | ANG_TAKES_GPU_MEMORY,
     .create = create,
     .render = render,
     .explain = ang_slicing_explain,

@@ -40,11 +40,16 @@ static ang_vec3 step_margin(const ang_ray_frame *frame, double length) {
     return (ang_vec3){margin[0], margin[1], margin[2]};
 }
 
+/* Voxels: where a ray moves farther from plane to plane, looking for the hits of an iso-surface between them makes
+ * blocks so much larger that leaving out the rest pays no more. */
+enum { MOST_ISO_APRON = 17 };
+
 static bool prepare_octree(ang_renderer *renderer, const ang_render_options *options, ang_slicing *s, ang_error *err) {
     const ang_volume *volume = renderer->volume;
     int leaf[3], apron = 1;
     /* A hit before a plane shows at that plane: what lies a step before it must count as well. */
     if (s->visibility.mode == ANG_MODE_ISO) apron += s->needs.reach;
+    if (apron > MOST_ISO_APRON) apron = 1; /* decide_skipping() skips nothing then */
     for (int axis = 0; axis < 3; axis++) {
         int cells = volume->dims[axis] > 1 ? volume->dims[axis] - 1 : 1, bricks = options->bricks[axis];
         leaf[axis] = bricks > 0 ? (cells + bricks - 1) / bricks : ANG_OCTREE_LEAF;
@@ -65,6 +70,8 @@ static void decide_skipping(const ang_renderer *renderer, const ang_render_optio
         s->why_no_skip = "--no-skip";
     else if (s->visibility.mode == ANG_MODE_MEAN)
         s->why_no_skip = "every value counts in a mean";
+    else if (s->visibility.mode == ANG_MODE_ISO && s->needs.reach + 1 > MOST_ISO_APRON)
+        s->why_no_skip = "the planes are so far apart that a hit may lie blocks before its plane";
     else if (ang_visibility_of_all(&s->visibility, renderer->octree->level[renderer->octree->levels - 1].nodes[0]))
         s->why_no_skip = "nothing in the volume is invisible";
     s->skips = !s->why_no_skip;
@@ -78,7 +85,7 @@ static void decide_finishing(const ang_renderer *renderer, const ang_scene *scen
         s->why_no_finish = scene->mode == ANG_MODE_ISO ? "the depth test itself keeps the nearest hit"
                                                        : "every sample counts in this mode";
     } else if (!(options->termination < 1)) {
-        s->why_no_finish = "--no-termination";
+        s->why_no_finish = "rays are not to end early";
     } else {
         double depth = renderer->table.greatest * 2 * ang_volume_half_diagonal(renderer->volume);
         if (-expm1(-depth) < options->termination)
@@ -116,6 +123,11 @@ bool ang_slicing_decide(ang_renderer *renderer, const ang_scene *scene, const an
     if (!(options->step_voxels > 0))
         return ang_fail(err, ANG_USAGE, "--step %g: give a positive multiple of the smallest spacing",
                         options->step_voxels);
+    if (options->pass_steps > 2 && options->pass_steps != 4)
+        return ang_fail(err, ANG_USAGE,
+                        "--passes-steps %d: slicing composites 1, 2 or 4 planes in a fragment; 0: as "
+                        "many as pay",
+                        options->pass_steps);
     if (!ang_scene_check(scene, err) || !ang_ray_frame_make(volume, scene, &s->frame, err)) return false;
     if (ang_scene_needs_table(scene) &&
         !ang_table_texture_update(&renderer->table, renderer->gl, scene->transfer, volume, err))
@@ -164,21 +176,26 @@ static void explain_storage(const ang_renderer *renderer, ang_plan *plan) {
     }
 }
 
-static void explain_boxes(const ang_renderer *renderer, const ang_slicing *s, ang_plan *plan) {
+static void explain_boxes(const ang_renderer *renderer, const ang_slicing *s, const ang_render_options *options,
+                          ang_plan *plan) {
     const ang_slice_boxes *boxes = &renderer->boxes;
-    ang_plan_use(plan, "%d planes %.4g mm apart, %s", s->planes.count, s->planes.distance,
+    ang_plan_use(plan, "planes: %d, %.4g mm apart, %s", s->planes.count, s->planes.distance,
                  s->order.back_to_front ? "back to front" : "front to back");
     if (s->group > 1)
         ang_plan_use(plan, "%d planes composited by a fragment before it blends", s->group);
     else
         ang_plan_leave_out(plan, "compositing of planes before they blend", "%s",
                            s->visibility.mode == ANG_MODE_ISO ? "only the nearest hit shows"
-                                                              : "it does not pay with shading, or --passes-steps 1");
-    ang_plan_use(plan, "polygons by %s: %zu boxes of the octree, %.0f polygons", ang_proxy_name(s->order.proxy),
-                 boxes->blocks, boxes->polygons);
+                           : options->pass_steps == 1         ? "--passes-steps 1"
+                                                              : "it does not pay with shading");
+    ang_plan_use(plan, "polygons by %s: %.0f in %zu boxes, to which %zu of the octree's %zu leaves are joined",
+                 ang_proxy_name(s->order.proxy), boxes->polygons, boxes->blocks, boxes->leaves_drawn,
+                 boxes->leaves_total);
     if (!s->skips) ang_plan_leave_out(plan, "skipping of invisible boxes", "%s", s->why_no_skip);
     if (boxes->leaves_total > boxes->leaves_drawn)
-        ang_plan_leave_out(plan, "boxes", "%zu of %zu leaves of the octree: %s%sout of the picture or the clip box",
+        ang_plan_leave_out(plan, "parts of the volume",
+                           "%zu of %zu leaves of the octree: %s%sthey lie outside the "
+                           "picture or the clip box",
                            boxes->leaves_total - boxes->leaves_drawn, boxes->leaves_total,
                            s->skips ? ang_visibility_reason(s->visibility.mode) : "", s->skips ? ", or " : "");
 }
@@ -188,15 +205,18 @@ bool ang_slicing_explain(ang_renderer *renderer, const ang_scene *scene, const a
     ang_slicing s;
     if (!ang_slicing_decide(renderer, scene, options, &s, err)) return false;
     explain_storage(renderer, plan);
-    explain_boxes(renderer, &s, plan);
+    explain_boxes(renderer, &s, options, plan);
     ang_scene_explain(plan, scene, renderer->volume);
     ang_slice_recipe recipe = ang_slicing_recipe(renderer, scene, options, &s, false);
     ang_slice_explain_pass(plan, ANG_SLICE_INNER, &recipe);
     ang_slice_explain_pass(plan, ANG_SLICE_FACES, &recipe);
-    if (s.finishes)
+    if (s.finishes) {
+        ang_plan_use(plan, "early termination: where opacity reaches %g the depth test rejects what lies behind",
+                     options->termination);
         ang_slice_explain_pass(plan, ANG_SLICE_FINISH, &recipe);
-    else
+    } else {
         ang_plan_leave_out(plan, "early termination by the depth test", "%s", s.why_no_finish);
+    }
     if (ang_slice_needs_resolve(scene))
         ang_slice_explain_pass(plan, ANG_SLICE_RESOLVE, &recipe);
     else

@@ -47,7 +47,7 @@ def rezk_salama():
                 counts = j['counts']
                 base.setdefault((shading, share), fps)
                 cells.append(f'{fps:.2f} ({100 * (fps / base[shading, share] - 1):+.0f} %)')
-        print(f'| {b} | ' + ' | '.join(cells) + f" | {counts['bricks_drawn']} | {counts['polygons']} |", flush=True)
+        print(f'| {b} | ' + ' | '.join(cells) + f" | {counts['boxes']} | {counts['polygons']} |", flush=True)
 
 
 def benassarou():
