@@ -55,6 +55,18 @@ static void usage_errors_give_two(void **state) {
     assert_false(exists(TMP "/x.png"));
 }
 
+static void what_a_method_cannot_do_is_said(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method singlepass --bricks 2x2x2 2>&1");
+    assert_non_null(strstr(output, "warning: --bricks has no effect with --method singlepass"));
+    expect(0, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method slicing --step 20 2>&1");
+    assert_non_null(strstr(output, "20 voxels: what is thinner may be missed"));
+    expect(0, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method slicing --fov 170 --zoom 20 2>&1");
+    assert_non_null(strstr(output, "so wide a field of view"));
+    expect(2, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method slicing --passes-steps 3 2>&1");
+    assert_non_null(strstr(output, "--passes-steps 3"));
+}
+
 static void json_takes_no_value_but_for_render(void **state) {
     (void)state;
     static const char *const commands[] = {"info " PHANTOM " --json - 2>&1", "info " PHANTOM " --json x.json 2>&1",
@@ -370,6 +382,7 @@ static void progress_and_messages_go_to_stderr(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(usage_errors_give_two),
+        cmocka_unit_test(what_a_method_cannot_do_is_said),
         cmocka_unit_test(json_takes_no_value_but_for_render),
         cmocka_unit_test(help_goes_to_stdout),
         cmocka_unit_test(phantoms_that_cannot_be_are_refused),

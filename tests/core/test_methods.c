@@ -157,7 +157,22 @@ static void every_method_shows_the_reference_picture(void **state) {
     assert_true(tried > 0);
 }
 
+static void options_that_change_nothing_are_known(void **state) {
+    (void)state;
+    ang_render_options options = ang_render_options_default;
+    for (const ang_method *const *method = ang_methods(); *method; method++)
+        assert_int_equal(ang_method_ignores(*method, &options), 0);
+    options.proxy = ANG_PROXY_CONVEX_HULL;
+    options.bricks[1] = 3;
+    options.termination = 0.9;
+    assert_int_equal(ang_method_ignores(&ang_method_slicing, &options), 0);
+    assert_int_equal(ang_method_ignores(&ang_method_singlepass, &options), ANG_TAKES_PROXY | ANG_TAKES_BRICKS);
+    assert_int_equal(ang_method_ignores(&ang_method_reference, &options),
+                     ANG_TAKES_PROXY | ANG_TAKES_BRICKS | ANG_TAKES_TERMINATION);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_method_shows_the_reference_picture)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_method_shows_the_reference_picture),
+                                       cmocka_unit_test(options_that_change_nothing_are_known)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
