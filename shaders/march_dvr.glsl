@@ -2,28 +2,32 @@
 uniform float termination; // accumulated opacity at which a ray stops
 
 vec4 march(Ray ray, out float samples) {
-    float reach = ray.leave - ray.enter;
-    int count = lattice_count(reach);
-    vec3 start = ray.origin + ray.enter * ray.direction;
+    March m = march_along(ray);
     vec3 colour = vec3(0.0);
     float opacity = 0.0;
-    int i = 0;
-    while (i < count && opacity < termination) {
-        vec4 medium;
-        vec3 place;
+    int taken = 0;
+    int i = m.begin;
+    // Software GL runs all of a loop's body for all of its pixels: one flat loop costs it less than one for skipping
+    // inside another for shading.
+    while (i < m.end && opacity < termination) {
         float piece;
-        // Software GL runs both sides of every branch but leaves a loop when all its pixels have: the inner loop spares
-        // it the shading of what is invisible.
-        do {
-            piece = lattice_length(i, count, reach);
-            place = start + lattice_place(i, piece) * ray.direction;
+        vec3 place = march_place(m, i, piece);
+        int jump = skip_steps(place, m.rate);
+        if (jump > 0) {
+            i += jump;
+            continue;
+        }
+        for (int k = 0; k < march_group; k++) {
+            place = march_place(m, i, piece);
+            bool counts = i < m.count && opacity < termination;
+            vec4 medium = transfer_at(stored_from(field_at(place)));
+            float added = counts ? (1.0 - opacity) * opacity_of(medium.a * piece) : 0.0;
+            colour += added * shade(medium.rgb, place, ray.direction_mm, added > 0.0);
+            opacity += added;
+            taken += int(counts);
             i++;
-            medium = transfer_at(stored_from(field_at(place)));
-        } while (medium.a <= 0.0 && i < count);
-        float added = (1.0 - opacity) * opacity_of(medium.a * piece);
-        colour += added * shade(medium.rgb, place, ray.direction_mm, true);
-        opacity += added;
+        }
     }
-    samples = float(i);
+    samples = float(taken);
     return vec4(colour, opacity);
 }

@@ -1,13 +1,24 @@
 // The maximum along the ray.
 vec4 march(Ray ray, out float samples) {
-    float reach = ray.leave - ray.enter;
-    int count = lattice_count(reach);
-    vec3 start = ray.origin + ray.enter * ray.direction;
+    March m = march_along(ray);
     float found = 0.0;
-    for (int i = 0; i < count; i++) {
-        float piece = lattice_length(i, count, reach);
-        found = max(found, field_at(start + lattice_place(i, piece) * ray.direction));
+    int taken = 0;
+    int i = m.begin;
+    while (i < m.end) {
+        float piece;
+        vec3 place = march_place(m, i, piece);
+        int jump = skip_steps(place, m.rate);
+        if (jump > 0) {
+            i += jump;
+            continue;
+        }
+        for (int k = 0; k < march_group; k++) {
+            place = march_place(m, i, piece);
+            found = i < m.count ? max(found, field_at(place)) : found;
+            taken += int(i < m.count);
+            i++;
+        }
     }
-    samples = float(count);
+    samples = float(taken);
     return window_grey(found);
 }

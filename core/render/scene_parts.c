@@ -92,6 +92,33 @@ void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const a
         ANG_SHADER_ADD(source, weight_hardware);
 }
 
+void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual,
+                     const ang_table_texture *table, double length) {
+    ANG_SHADER_ADD(source, march);
+    switch (scene->mode) {
+    case ANG_MODE_DVR:
+        ang_parts_opacity(source, table, length);
+        if (ang_scene_needs_phong(scene))
+            ANG_SHADER_ADD(source, march_dvr_seek);
+        else
+            ANG_SHADER_ADD(source, march_dvr);
+        break;
+    case ANG_MODE_MIP:
+        ANG_SHADER_ADD(source, march_mip);
+        break;
+    case ANG_MODE_MINIP:
+        ANG_SHADER_ADD(source, march_minip);
+        break;
+    case ANG_MODE_MEAN:
+        ang_parts_weight(source, scene, volume, manual);
+        ANG_SHADER_ADD(source, march_mean);
+        break;
+    case ANG_MODE_ISO:
+        ANG_SHADER_ADD(source, march_iso);
+        break;
+    }
+}
+
 void ang_uniforms_ray(unsigned program, const ang_ray_frame *frame) {
     bool perspective = frame->perspective;
     ang_uniform_vec3(program, "ray_origin", frame->origin);

@@ -29,6 +29,12 @@ void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const a
 /* opacity_of for samples that stand for at most `length` mm of a ray: no exponential where none is thick enough. */
 void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table, double length);
 
+/* march, the loop along a ray, of the scene's mode, with the parts that it needs beside field and classification; the
+ * parts that bound it and that skip (bounds_*.glsl, skip_*.glsl) must be there. `length`: mm that a sample stands for,
+ * at most. */
+void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual,
+                     const ang_table_texture *table, double length);
+
 /* ray.glsl */
 void ang_uniforms_ray(unsigned program, const ang_ray_frame *frame);
 /* field*.glsl, trilinear.glsl and weight_*.glsl; binds the textures. */

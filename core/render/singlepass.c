@@ -78,25 +78,9 @@ static ang_shader_source compose(const ang_renderer *renderer, const ang_scene *
     ANG_SHADER_ADD(&source, lattice);
     ang_parts_field(&source, manual);
     ang_parts_classification(&source, scene);
-    switch (scene->mode) {
-    case ANG_MODE_DVR:
-        ang_parts_opacity(&source, &renderer->table, 1.01 * step_used(volume, options));
-        ANG_SHADER_ADD(&source, march_dvr);
-        break;
-    case ANG_MODE_MIP:
-        ANG_SHADER_ADD(&source, march_mip);
-        break;
-    case ANG_MODE_MINIP:
-        ANG_SHADER_ADD(&source, march_minip);
-        break;
-    case ANG_MODE_MEAN:
-        ang_parts_weight(&source, scene, volume, manual);
-        ANG_SHADER_ADD(&source, march_mean);
-        break;
-    case ANG_MODE_ISO:
-        ANG_SHADER_ADD(&source, march_iso);
-        break;
-    }
+    ANG_SHADER_ADD(&source, bounds_box);
+    ANG_SHADER_ADD(&source, skip_none);
+    ang_parts_march(&source, scene, volume, manual, &renderer->table, 1.01 * step_used(volume, options));
     if (counting)
         ANG_SHADER_ADD(&source, picture_counted);
     else
