@@ -1,0 +1,1 @@
+flat out int hull_cell;
