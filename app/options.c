@@ -46,7 +46,7 @@ static const option_spec table[] = {
                 "preset: see 'presets list'; default: one that suits the input"),
     REAL_OPTION("shift", ANG_VERB_RENDER, shift, "HU", -1e5, 1e5, "0", "HU",
                 "moves the preset's transfer function along the HU axis"),
-    CHOICE_OPTION("method", method, "auto|slicing|singlepass|reference", "auto", "rendering method"),
+    CHOICE_OPTION("method", method, "auto|slicing|envelope|singlepass|reference", "auto", "rendering method"),
     CHOICE_OPTION("mode", mode, "dvr|mip|minip|mean|iso", NULL, "what a ray shows; default: the preset's"),
     REAL_OPTION("iso", ANG_VERB_RENDER, iso, "HU", -1e6, 1e6, NULL, "HU",
                 "iso value for --mode iso; default: the preset's"),

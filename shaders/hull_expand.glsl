@@ -6,6 +6,8 @@ uniform vec3 hull_origin;    // index, about the box's centre: the lower corner 
 uniform vec3 hull_side;      // index units in a cell
 uniform vec3 hull_pad_index; // index units in one mm across the faces of the box
 uniform vec2 hull_pad;       // mm: of a face at w 0, and more for each w
+uniform vec3 box_lower;       // clip box, index
+uniform vec3 box_upper;
 uniform vec4 clip_x;
 uniform vec4 clip_y;
 uniform vec4 clip_w;

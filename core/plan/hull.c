@@ -38,9 +38,9 @@ static bool gather(ang_hull_cells *cells, const int dims[3], const uint8_t *visi
     for (int z = first[2]; z < end[2]; z++)
         for (int y = first[1]; y < end[1]; y++) {
             const uint8_t *row = visible + (size_t)dims[0] * ((size_t)y + (size_t)dims[1] * (size_t)z);
-            uint8_t *cell = cells->active + (size_t)cells->dims[0] *
-                                                ((size_t)(y / cells->side) +
-                                                 (size_t)cells->dims[1] * (size_t)(z / cells->side));
+            uint8_t *cell =
+                cells->active + (size_t)cells->dims[0] *
+                                    ((size_t)(y / cells->side) + (size_t)cells->dims[1] * (size_t)(z / cells->side));
             for (int x = first[0]; x < end[0]; x++) cell[x / cells->side] |= row[x] != 0;
         }
     return true;

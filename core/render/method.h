@@ -95,5 +95,6 @@ const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const 
 extern const ang_method ang_method_reference;
 extern const ang_method ang_method_singlepass;
 extern const ang_method ang_method_slicing;
+extern const ang_method ang_method_envelope;
 
 #endif

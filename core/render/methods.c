@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-static const ang_method *const methods[] = {&ang_method_singlepass, &ang_method_slicing, &ang_method_reference, NULL};
+static const ang_method *const methods[] = {&ang_method_singlepass, &ang_method_slicing, &ang_method_envelope,
+                                            &ang_method_reference, NULL};
 
 const ang_method *const *ang_methods(void) { return methods; }
 

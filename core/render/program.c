@@ -92,13 +92,15 @@ static bool link_program(GLuint program, const char *title, ang_error *err) {
                     title, first_error(log));
 }
 
-static GLuint build(const char *title, const ang_shader_source *vertex, const ang_shader_source *fragment,
-                    ang_error *err) {
+/* A vertex shader and another of `kind`; `capture`: the varying that transform feedback keeps, or NULL. */
+static GLuint build(const char *title, const ang_shader_source *vertex, GLenum kind, const ang_shader_source *other,
+                    const char *capture, ang_error *err) {
     GLuint program = glCreateProgram();
-    GLuint shaders[2] = {glCreateShader(GL_VERTEX_SHADER), glCreateShader(GL_FRAGMENT_SHADER)};
-    bool ok = compile(shaders[0], title, vertex, err) && compile(shaders[1], title, fragment, err);
+    GLuint shaders[2] = {glCreateShader(GL_VERTEX_SHADER), glCreateShader(kind)};
+    bool ok = compile(shaders[0], title, vertex, err) && compile(shaders[1], title, other, err);
     if (ok) {
         for (int i = 0; i < 2; i++) glAttachShader(program, shaders[i]);
+        if (capture) glTransformFeedbackVaryings(program, 1, &capture, GL_INTERLEAVED_ATTRIBS);
         ok = link_program(program, title, err);
         for (int i = 0; i < 2; i++) glDetachShader(program, shaders[i]);
     }
@@ -106,6 +108,11 @@ static GLuint build(const char *title, const ang_shader_source *vertex, const an
     if (ok) return program;
     glDeleteProgram(program);
     return 0;
+}
+
+unsigned ang_program_capture(const char *title, const ang_shader_source *vertex, const ang_shader_source *geometry,
+                             const char *capture, ang_error *err) {
+    return build(title, vertex, GL_GEOMETRY_SHADER, geometry, capture, err);
 }
 
 unsigned ang_programs_get(ang_programs *programs, const char *title, const ang_shader_source *vertex,
@@ -119,7 +126,7 @@ unsigned ang_programs_get(ang_programs *programs, const char *title, const ang_s
         return 0;
     }
     programs->entries = grown;
-    GLuint program = build(title, vertex, fragment, err);
+    GLuint program = build(title, vertex, GL_FRAGMENT_SHADER, fragment, NULL, err);
     if (program) grown[programs->count++] = (struct ang_program_entry){hash, program};
     return program;
 }

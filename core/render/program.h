@@ -43,6 +43,10 @@ typedef struct ang_programs {
  * ANG_GL naming the part and line that does not compile, or with ANG_LIMIT. */
 unsigned ang_programs_get(ang_programs *programs, const char *title, const ang_shader_source *vertex,
                           const ang_shader_source *fragment, ang_error *err);
+/* A program without fragments whose points are captured: `geometry` gives one varying, `capture`, of one word a point.
+ * The caller deletes it. 0 as above. */
+unsigned ang_program_capture(const char *title, const ang_shader_source *vertex, const ang_shader_source *geometry,
+                             const char *capture, ang_error *err);
 /* Deletes all programs; the context must be current. */
 void ang_programs_clear(ang_programs *programs);
 

@@ -126,8 +126,8 @@ bool ang_ray_pass_draw(ang_ray_pass *pass, const ang_scene *scene, const ang_ren
     ang_shader_source vertex = compose_vertex();
     ang_shader_source fragment = compose(pass, scene, options, limits, stats != NULL);
     GLuint program = ang_programs_get(&pass->programs, pass->method, &vertex, &fragment, err);
-    if (!program || !ang_target_resize(&pass->target, pass->gl, scene->width, scene->height,
-                                       stats ? ANG_TARGET_COUNTS : 0, err))
+    if (!program ||
+        !ang_target_resize(&pass->target, pass->gl, scene->width, scene->height, stats ? ANG_TARGET_COUNTS : 0, err))
         return false;
     if (stats) stats->step_mm = ang_ray_step(pass->volume, options);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->target.framebuffer);

@@ -119,6 +119,12 @@ void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const an
     }
 }
 
+void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space) {
+    ang_uniform_vec4(program, "clip_x", space->x.gradient, space->x.constant);
+    ang_uniform_vec4(program, "clip_y", space->y.gradient, space->y.constant);
+    ang_uniform_vec4(program, "clip_w", space->w.gradient, space->w.constant);
+}
+
 void ang_uniforms_ray(unsigned program, const ang_ray_frame *frame) {
     bool perspective = frame->perspective;
     ang_uniform_vec3(program, "ray_origin", frame->origin);

@@ -6,6 +6,7 @@
 #include "core/render/program.h"
 #include "core/render/table_texture.h"
 #include "core/render/volume_texture.h"
+#include "core/scene/clip_space.h"
 #include "core/scene/scene.h"
 
 /* The texture units that the parts read from; methods take further ones from ANG_UNIT_FREE on. */
@@ -35,6 +36,8 @@ void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual,
                      const ang_table_texture *table, double length);
 
+/* clip_x, clip_y and clip_w of what projects places of index space. */
+void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space);
 /* ray.glsl */
 void ang_uniforms_ray(unsigned program, const ang_ray_frame *frame);
 /* field*.glsl, trilinear.glsl and weight_*.glsl; binds the textures. */

@@ -33,7 +33,8 @@ static void upload(ang_skip_grid *grid, const uint8_t *before) {
     size_t plane = (size_t)dims[0] * (size_t)dims[1];
     int first = 0, end = dims[2];
     if (before) {
-        while (first < end && memcmp(before + plane * (size_t)first, grid->distance + plane * (size_t)first, plane) == 0)
+        while (first < end &&
+               memcmp(before + plane * (size_t)first, grid->distance + plane * (size_t)first, plane) == 0)
             first++;
         while (end > first &&
                memcmp(before + plane * (size_t)(end - 1), grid->distance + plane * (size_t)(end - 1), plane) == 0)
@@ -90,7 +91,6 @@ void ang_skip_grid_bind(const ang_skip_grid *grid, unsigned program, int unit, a
     glBindTexture(GL_TEXTURE_3D, grid->texture);
     ang_uniform_int(program, "skip_grid", unit);
     ang_uniform_vec3(program, "skip_scale", (ang_vec3){1.0 / leaf[0], 1.0 / leaf[1], 1.0 / leaf[2]});
-    ang_uniform_vec3(program, "skip_offset",
-                     (ang_vec3){centre.x / leaf[0], centre.y / leaf[1], centre.z / leaf[2]});
+    ang_uniform_vec3(program, "skip_offset", (ang_vec3){centre.x / leaf[0], centre.y / leaf[1], centre.z / leaf[2]});
     ang_uniform_vec3(program, "skip_last", (ang_vec3){dims[0] - 1.0, dims[1] - 1.0, dims[2] - 1.0});
 }

@@ -15,9 +15,9 @@ typedef struct ang_skip_grid {
     uint8_t *distance;  /* ang_block_distances */
     unsigned texture;   /* 3D, GL_R8UI: `distance` */
     size_t blocks, visible_blocks;
-    uint64_t changes;      /* rises when the set of visible blocks does */
+    uint64_t changes;       /* rises when the set of visible blocks does */
     size_t blocks_uploaded; /* by the last update: those between the first and the last plane that changed */
-    double build_ms;       /* of the last update: the octree */
+    double build_ms;        /* of the last update: the octree */
 } ang_skip_grid;
 
 /* Brings the grid up to date; does nothing where the same blocks show. False with ANG_LIMIT or ANG_GL. */

@@ -1,7 +1,9 @@
 #include "core/render/slice_geometry.h"
 
 #include "core/base/memory.h"
+#include "core/render/pixel_pad.h"
 #include "core/render/program.h"
+#include "core/render/scene_parts.h"
 
 #include <glad/gl.h>
 #include <shaders.h>
@@ -27,18 +29,10 @@ typedef struct vertex {
     float owner_lower[3], owner_upper[3];
 } vertex;
 
-/* Boxes are widened by an eighth of a pixel, many times what a rasteriser's grid of sub-pixels is off by, and by far
- * more than positions in float are. Planes are parallel to the picture, so that what is pushed out across a face is
- * pushed out at least as far within a plane. */
-typedef struct padding {
-    double index[3]; /* index units in one mm across the faces of a box */
-    double mm[2];    /* at depth 0, and more for each mm of depth */
-} padding;
-
 /* What grows while a buffer is filled. */
 typedef struct filling {
     const ang_slice_geometry *geometry;
-    padding pad;
+    ang_pixel_pad pad;
     char *items; /* instances or vertices */
     size_t count, capacity, size;
     ang_error *err;
@@ -211,27 +205,15 @@ bool ang_slice_geometry_make(ang_slice_geometry *geometry, const ang_slice_boxes
     return true;
 }
 
-static padding pads(const ang_ray_frame *frame) {
-    padding pad;
-    double pixel = ang_vec3_length(frame->step_x_mm) / 8;
-    ang_vec3 diagonal = ang_mat4_direction(&frame->to_mm, ang_vec3_sub(frame->upper, frame->lower));
-    pad.mm[0] = pixel + 4e-6 * ang_vec3_length(diagonal);
-    pad.mm[1] = 0;
-    if (frame->perspective)
-        pad.mm[1] = pixel / ang_vec3_dot(ang_vec3_sub(frame->origin_mm, frame->eye_mm), frame->axis_mm);
-    for (int axis = 0; axis < 3; axis++) {
-        const double *row = frame->to_index.m[axis];
-        pad.index[axis] = sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
-    }
-    return pad;
-}
-
 /* Index units by which a polygon in the middle of its group must reach beyond the box to cover its other planes. */
 static ang_vec3 widening(const ang_slice_order *order) {
     return ang_vec3_scale(order->margin, 0.5 * (order->group - 1));
 }
 
-static double pad_at(const padding *pad, double depth) { return pad->mm[0] + pad->mm[1] * depth; }
+/* mm, at a depth from the plane of p. */
+static double pad_at(const ang_pixel_pad *pad, double depth) {
+    return pad->pixel + pad->rounding + pad->growth * depth;
+}
 
 static bool add_instance(filling *f, const ang_slice_stretch *stretch) {
     const ang_slice_box *box = &f->geometry->list->box[stretch->box];
@@ -253,7 +235,7 @@ static bool add_polygons(filling *f, const ang_slice_stretch *stretch) {
     double least, greatest;
     ang_slice_depths(planes, box->lower, box->upper, &least, &greatest);
     double pad = fmax(pad_at(&f->pad, least), pad_at(&f->pad, greatest));
-    ang_vec3 wider = ang_vec3_scale((ang_vec3){f->pad.index[0], f->pad.index[1], f->pad.index[2]}, pad);
+    ang_vec3 wider = ang_vec3_scale(f->pad.index, pad);
     wider = ang_vec3_add(wider, widening(g->order));
     ang_slicer slicer;
     ang_slicer_make(&slicer, ang_vec3_sub(box->lower, wider), ang_vec3_add(box->upper, wider), planes->gradient);
@@ -281,8 +263,10 @@ static bool add_polygons(filling *f, const ang_slice_stretch *stretch) {
 /* Fills the buffer with draw `first` and as many after it as there is room for. */
 static bool fill(ang_slice_geometry *g, ang_gl *gl, size_t first, ang_error *err) {
     bool instanced = g->order->proxy == ANG_PROXY_VERTEX_PROGRAM, ok = true;
-    filling f = {
-        .geometry = g, .pad = pads(g->frame), .size = instanced ? sizeof(instance) : sizeof(vertex), .err = err};
+    filling f = {.geometry = g,
+                 .pad = ang_pixel_pad_make(g->frame),
+                 .size = instanced ? sizeof(instance) : sizeof(vertex),
+                 .err = err};
     size_t draw = first;
     for (; draw < g->draws && f.count < BUFFER_ITEMS && ok; draw++) {
         ang_slice_draw *now = &g->draw[draw];
@@ -351,14 +335,14 @@ void ang_slice_geometry_parts(ang_proxy proxy, int group, ang_shader_source *ver
 void ang_slice_geometry_uniforms(const ang_slice_geometry *geometry, unsigned program, const ang_slice_planes *planes,
                                  const ang_ray_frame *frame, const ang_clip_space *space,
                                  const ang_slice_order *order) {
-    padding pad = pads(frame);
+    ang_pixel_pad pad = ang_pixel_pad_make(frame);
     ang_uniforms_clip_space(program, space);
     ang_uniform_vec4(program, "slice_gradient", planes->gradient, planes->offset);
     int front = 0;
     for (int axis = 0; axis < 3; axis++) front |= ang_vec3_at(planes->gradient, axis) < 0 ? 1 << axis : 0;
     ang_uniform_int(program, "slice_front", front);
-    ang_uniform_vec3(program, "slice_pad_index", (ang_vec3){pad.index[0], pad.index[1], pad.index[2]});
-    glProgramUniform2f(program, glGetUniformLocation(program, "slice_pad"), (float)pad.mm[0], (float)pad.mm[1]);
+    ang_uniform_vec3(program, "slice_pad_index", pad.index);
+    glProgramUniform2f(program, glGetUniformLocation(program, "slice_pad"), (float)pad_at(&pad, 0), (float)pad.growth);
     ang_uniform_vec3(program, "slice_widen", widening(order));
     ang_uniform_int(program, "slice_reverse", order->back_to_front);
     ang_uniform_ints(program, "vertex_sequence", &geometry->tables.sequence[0][0], 64);
@@ -394,10 +378,4 @@ bool ang_slice_geometry_draw_edges(const ang_slice_boxes *boxes, const ang_octre
     glDeleteVertexArrays(1, &array);
     free(corners);
     return true;
-}
-
-void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space) {
-    ang_uniform_vec4(program, "clip_x", space->x.gradient, space->x.constant);
-    ang_uniform_vec4(program, "clip_y", space->y.gradient, space->y.constant);
-    ang_uniform_vec4(program, "clip_w", space->w.gradient, space->w.constant);
 }

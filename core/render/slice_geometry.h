@@ -77,7 +77,5 @@ bool ang_slice_geometry_draw(ang_slice_geometry *geometry, ang_gl *gl, size_t dr
  * ANG_LIMIT. */
 bool ang_slice_geometry_draw_edges(const ang_slice_boxes *boxes, const ang_octree *octree, const ang_ray_frame *frame,
                                    ang_error *err);
-/* The uniforms of slice_project.glsl and edge.glsl. */
-void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space);
 
 #endif

@@ -1,0 +1,189 @@
+/* Object-order empty-space skipping: Haferburg, "Object order empty space skipping in OpenGL 4", and inside the
+ * envelope image-order skipping, which that text leaves to others. */
+#include "core/render/envelope_hull.h"
+#include "core/render/context_private.h"
+#include "core/render/ray_pass.h"
+#include "core/render/scene_parts.h"
+
+#include "core/base/memory.h"
+
+#include <shaders.h>
+#include <stdlib.h>
+
+enum { UNIT_GRID = ANG_UNIT_FREE, UNIT_RANGE };
+
+/* Faces of the envelope. A small polygon takes software GL about 5 us, so that a frame pays for few; on a GPU as many
+ * as Haferburg allows for the 64^3 cells of a 512^3 volume. */
+static const size_t most_faces_software = 600, most_faces = 65536;
+
+struct ang_renderer {
+    ang_ray_pass pass;
+    ang_skip_grid grid;
+    ang_envelope_hull hull;
+};
+
+/* What is decided about one picture. */
+typedef struct decision {
+    ang_ray_frame frame;
+    ang_visibility visibility;
+    bool skips, bounds, inside;
+    const char *why_no_skip, *why_no_bounds;
+    const ang_renderer *renderer;
+} decision;
+
+static void destroy(ang_renderer *renderer) {
+    if (!renderer) return;
+    ang_envelope_hull_destroy(&renderer->hull);
+    ang_skip_grid_destroy(&renderer->grid);
+    ang_ray_pass_destroy(&renderer->pass);
+    free(renderer);
+}
+
+static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_render_options *options, ang_error *err) {
+    ang_renderer *renderer = ang_alloc(1, sizeof *renderer, "the envelope's renderer", err);
+    if (!renderer || ang_ray_pass_make(&renderer->pass, "envelope", gl, volume, options, err)) return renderer;
+    destroy(renderer);
+    return NULL;
+}
+
+/* Whether a ray may start inside the volume: the near plane reaches into the clip box. */
+static bool may_start_inside(const ang_ray_frame *frame) {
+    for (int corner = 0; corner < 8; corner++) {
+        ang_vec3 at = {corner & 1 ? frame->upper.x : frame->lower.x, corner & 2 ? frame->upper.y : frame->lower.y,
+                       corner & 4 ? frame->upper.z : frame->lower.z};
+        ang_vec3 from = ang_vec3_sub(ang_mat4_direction(&frame->to_mm, at), frame->origin_mm);
+        if (ang_vec3_dot(from, frame->axis_mm) < frame->near_depth + 1e-3 * fabs(frame->near_depth)) return true;
+    }
+    return false;
+}
+
+static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, decision *d,
+                   ang_error *err) {
+    *d = (decision){.renderer = renderer};
+    const ang_volume *volume = renderer->pass.volume;
+    if (!ang_ray_pass_prepare(&renderer->pass, scene, options, &d->frame, err)) return false;
+    d->visibility = ang_visibility_make(volume, scene, renderer->pass.table.tables);
+    renderer->grid.build_ms = 0;
+    if (options->no_skip)
+        d->why_no_skip = "--no-skip";
+    else if (scene->mode == ANG_MODE_MEAN)
+        d->why_no_skip = "every value counts in a mean";
+    d->why_no_bounds = d->why_no_skip;
+    if (d->why_no_skip) return true;
+    if (!ang_skip_grid_update(&renderer->grid, renderer->pass.gl, volume, &d->visibility, options->threads, err))
+        return false;
+    if (renderer->grid.visible_blocks == renderer->grid.blocks) {
+        d->why_no_skip = d->why_no_bounds = "no block of the volume is invisible";
+        return true;
+    }
+    d->skips = true;
+    size_t budget = ang_gl_is_software(renderer->pass.gl) ? most_faces_software : most_faces;
+    if (!ang_envelope_hull_update(&renderer->hull, renderer->pass.gl, &renderer->grid, &d->frame, budget, err))
+        return false;
+    d->bounds = renderer->hull.cells.side > 0;
+    if (!d->bounds) d->why_no_bounds = "its faces would be more than the budget allows; the clip box bounds the rays";
+    d->inside = d->bounds && may_start_inside(&d->frame);
+    return true;
+}
+
+static void add_parts(const void *context, ang_shader_source *source) {
+    const decision *d = context;
+    if (!d->bounds) {
+        ANG_SHADER_ADD(source, bounds_box);
+    } else {
+        if (d->inside)
+            ANG_SHADER_ADD(source, envelope_inside);
+        else
+            ANG_SHADER_ADD(source, envelope_outside);
+        ANG_SHADER_ADD(source, bounds_envelope);
+    }
+    if (d->skips)
+        ANG_SHADER_ADD(source, skip_distance);
+    else
+        ANG_SHADER_ADD(source, skip_none);
+}
+
+static void set_uniforms(const void *context, unsigned program, const ang_ray_frame *frame) {
+    const decision *d = context;
+    if (d->skips) ang_skip_grid_bind(&d->renderer->grid, program, UNIT_GRID, frame->centre);
+    if (d->bounds) ang_envelope_hull_bind(&d->renderer->hull, program, UNIT_RANGE);
+}
+
+static void compose_range(ang_shader_source *vertex, ang_shader_source *fragment) {
+    *vertex = *fragment = (ang_shader_source){.count = 0};
+    ang_envelope_hull_parts(vertex, fragment);
+}
+
+static bool draw_range(ang_renderer *renderer, const ang_scene *scene, const decision *d, ang_error *err) {
+    ang_shader_source vertex, fragment;
+    compose_range(&vertex, &fragment);
+    unsigned program = ang_programs_get(&renderer->pass.programs, "envelope", &vertex, &fragment, err);
+    return program && ang_envelope_hull_draw(&renderer->hull, renderer->pass.gl, program, &renderer->grid, &d->frame,
+                                             scene->width, scene->height, err);
+}
+
+static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
+                   ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
+    decision d;
+    if (!decide(renderer, scene, options, &d, err)) return false;
+    if (d.bounds && !draw_range(renderer, scene, &d, err)) return false;
+    const ang_skip_grid *grid = &renderer->grid;
+    if (stats)
+        *stats = (ang_frame_stats){.bricks_drawn = d.skips ? grid->visible_blocks : 1,
+                                   .bricks_total = d.skips ? grid->blocks : 1,
+                                   .polygons = d.bounds ? renderer->hull.faces : 0,
+                                   .passes = d.bounds ? 2 : 1,
+                                   .octree_ms = grid->build_ms};
+    const ang_ray_limits limits = {add_parts, set_uniforms, &d};
+    return ang_ray_pass_draw(&renderer->pass, scene, options, &d.frame, &limits, image, stats, progress, err);
+}
+
+static void explain_skipping(const ang_renderer *renderer, const decision *d, ang_plan *plan) {
+    const ang_skip_grid *grid = &renderer->grid;
+    if (!d->skips) {
+        ang_plan_leave_out(plan, "skipping of invisible blocks", "%s", d->why_no_skip);
+    } else {
+        ang_plan_use(plan, "skipping by the distance to the next visible block: %zu of %zu blocks of 8x8x8 cells show",
+                     grid->visible_blocks, grid->blocks);
+        if (grid->visible_blocks < grid->blocks)
+            ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s",
+                               grid->blocks - grid->visible_blocks, grid->blocks,
+                               ang_visibility_reason(d->visibility.mode));
+    }
+    if (!d->bounds) {
+        ang_plan_leave_out(plan, "envelope of what shows", "%s", d->why_no_bounds);
+        return;
+    }
+    int side = 8 * renderer->hull.cells.side;
+    ang_plan_use(plan, "envelope of what shows: %zu faces of cells of %dx%dx%d", renderer->hull.faces, side, side,
+                 side);
+    if (!d->inside)
+        ang_plan_leave_out(plan, "rays that start inside the envelope", "the near plane lies before the whole volume");
+}
+
+static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
+                    ang_error *err) {
+    decision d;
+    if (!decide(renderer, scene, options, &d, err)) return false;
+    explain_skipping(renderer, &d, plan);
+    if (d.bounds) {
+        ang_shader_source vertex, fragment;
+        compose_range(&vertex, &fragment);
+        ang_shader_explain(plan, "range of each ray in the envelope", &vertex, &fragment, 0);
+    }
+    const ang_ray_limits limits = {add_parts, set_uniforms, &d};
+    ang_ray_pass_explain(&renderer->pass, scene, options, &limits, plan);
+    return true;
+}
+
+const ang_method ang_method_envelope = {
+    .name = "envelope",
+    .title = "rays between the faces of an envelope of what shows, skipping inside it",
+    .source = "Haferburg, Object order empty space skipping in OpenGL 4",
+    .needs_gl = true,
+    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP,
+    .create = create,
+    .render = render,
+    .explain = explain,
+    .destroy = destroy,
+};

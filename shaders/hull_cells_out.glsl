@@ -1,1 +1,0 @@
-flat out int hull_cell;
