@@ -15,6 +15,7 @@ void ang_envelope_hull_destroy(ang_envelope_hull *hull) {
     if (hull->buffer) glDeleteBuffers(1, &hull->buffer);
     if (hull->feedback) glDeleteTransformFeedbacks(1, &hull->feedback);
     if (hull->query) glDeleteQueries(1, &hull->query);
+    if (hull->framebuffer) glDeleteFramebuffers(1, &hull->framebuffer);
     if (hull->arrays) glDeleteVertexArrays(1, &hull->arrays);
     ang_target_destroy(&hull->range);
     ang_hull_cells_clear(&hull->cells);
@@ -34,6 +35,11 @@ static bool make_objects(ang_envelope_hull *hull, ang_error *err) {
     glGenTransformFeedbacks(1, &hull->feedback);
     glGenQueries(1, &hull->query);
     glGenVertexArrays(1, &hull->arrays);
+    glGenFramebuffers(1, &hull->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, hull->framebuffer);
+    glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+    glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
     return true;
 }
 
@@ -75,6 +81,7 @@ static bool capture_faces(ang_envelope_hull *hull, ang_gl *gl, ang_error *err) {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_3D, hull->active);
     ang_uniform_int(hull->capture, "hull_active", 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, hull->framebuffer);
     glEnable(GL_RASTERIZER_DISCARD);
     glBindVertexArray(hull->arrays);
     glBeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, hull->query);
@@ -83,6 +90,7 @@ static bool capture_faces(ang_envelope_hull *hull, ang_gl *gl, ang_error *err) {
     glEndTransformFeedback();
     glEndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
     glDisable(GL_RASTERIZER_DISCARD);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glBindVertexArray(0);
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, 0);
     glBindTexture(GL_TEXTURE_3D, 0);

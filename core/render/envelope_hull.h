@@ -15,6 +15,7 @@ typedef struct ang_envelope_hull {
     unsigned active;                  /* 3D texture, GL_R8UI: the cells */
     unsigned buffer, list;            /* packed faces, and their buffer texture */
     unsigned feedback, query, arrays; /* for capturing and drawing */
+    unsigned framebuffer;             /* without pixels: a surfaceless context refuses to draw into none at all */
     size_t faces;                     /* in the buffer; 0: nothing shows */
     ang_target range;                 /* hull_range.glsl */
     /* what it was made for */
