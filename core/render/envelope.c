@@ -1,7 +1,7 @@
 /* Object-order empty-space skipping: Haferburg, "Object order empty space skipping in OpenGL 4", and inside the
  * envelope image-order skipping, which that text leaves to others. */
-#include "core/render/envelope_hull.h"
 #include "core/render/context_private.h"
+#include "core/render/envelope_hull.h"
 #include "core/render/ray_pass.h"
 #include "core/render/scene_parts.h"
 
@@ -134,7 +134,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
                                    .polygons = d.bounds ? renderer->hull.faces : 0,
                                    .passes = d.bounds ? 2 : 1,
                                    .octree_ms = grid->build_ms};
-    const ang_ray_limits limits = {add_parts, set_uniforms, &d};
+    const ang_ray_limits limits = {add_parts, set_uniforms, &d, d.skips};
     return ang_ray_pass_draw(&renderer->pass, scene, options, &d.frame, &limits, image, stats, progress, err);
 }
 
@@ -171,7 +171,7 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
         compose_range(&vertex, &fragment);
         ang_shader_explain(plan, "range of each ray in the envelope", &vertex, &fragment, 0);
     }
-    const ang_ray_limits limits = {add_parts, set_uniforms, &d};
+    const ang_ray_limits limits = {add_parts, set_uniforms, &d, d.skips};
     ang_ray_pass_explain(&renderer->pass, scene, options, &limits, plan);
     return true;
 }

@@ -60,7 +60,7 @@ static ang_shader_source compose(const ang_ray_pass *pass, const ang_scene *scen
     ang_parts_field(&source, manual);
     ang_parts_classification(&source, scene);
     limits->parts(limits->context, &source);
-    ang_parts_march(&source, scene, volume, manual, &pass->table, 1.01 * ang_ray_step(volume, options));
+    ang_parts_march(&source, scene, volume, manual, &pass->table, 1.01 * ang_ray_step(volume, options), limits->skips);
     if (counting)
         ANG_SHADER_ADD(&source, picture_counted);
     else

@@ -93,12 +93,12 @@ void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const a
 }
 
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual,
-                     const ang_table_texture *table, double length) {
+                     const ang_table_texture *table, double length, bool skips) {
     ANG_SHADER_ADD(source, march);
     switch (scene->mode) {
     case ANG_MODE_DVR:
         ang_parts_opacity(source, table, length);
-        if (ang_scene_needs_phong(scene))
+        if (ang_scene_needs_phong(scene) && !skips)
             ANG_SHADER_ADD(source, march_dvr_seek);
         else
             ANG_SHADER_ADD(source, march_dvr);

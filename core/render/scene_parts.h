@@ -32,9 +32,9 @@ void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table
 
 /* march, the loop along a ray, of the scene's mode, with the parts that it needs beside field and classification; the
  * parts that bound it and that skip (bounds_*.glsl, skip_*.glsl) must be there. `length`: mm that a sample stands for,
- * at most. */
+ * at most; `skips`: whether the part that skips does. */
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual,
-                     const ang_table_texture *table, double length);
+                     const ang_table_texture *table, double length, bool skips);
 
 /* clip_x, clip_y and clip_w of what projects places of index space. */
 void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space);
