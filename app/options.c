@@ -71,6 +71,10 @@ static const option_spec table[] = {
     FLAG_OPTION("no-termination", 0, ANG_VERB_RENDER, no_termination, "follow every ray to its end"),
     CHOICE_OPTION("proxy", proxy, "vertex-program|marching-cubes|marching-tetrahedra|convex-hull", "vertex-program",
                   "how --method slicing cuts its polygons"),
+    CHOICE_OPTION(
+        "gradients", gradients, "auto|lookups|texture", "auto",
+        "envelope: where the gradients of Phong shading come from: six lookups a sample, or a texture made for "
+        "the visible blocks"),
     FLAG_OPTION("no-skip", 0, ANG_VERB_RENDER, no_skip, "draw what is invisible too"),
     TEXT_OPTION("bricks", ANG_VERB_RENDER, bricks, "NxNxN", NULL,
                 "slicing: this many bricks along each axis, or as many as cells allow, every visible one drawn; "

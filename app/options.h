@@ -20,7 +20,7 @@ typedef enum ang_verb {
 typedef struct ang_options {
     const char *output;
     const char *series, *preset, *method, *mode, *shading, *size, *view, *projection, *clip, *background;
-    const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks;
+    const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients;
     double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory,
         threshold; /* NaN where not given and without default */
     int frames, repeat, threads, seed, pass_steps;

@@ -121,6 +121,9 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     picture->render.threads = options->threads;
     picture->render.no_skip = options->no_skip;
     picture->render.pass_steps = options->pass_steps;
+    picture->render.gradients = strcmp(options->gradients, "lookups") == 0   ? ANG_GRADIENTS_LOOKUPS
+                                : strcmp(options->gradients, "texture") == 0 ? ANG_GRADIENTS_TEXTURE
+                                                                             : ANG_GRADIENTS_AUTO;
     picture->render.show_bricks = options->show_bricks;
     picture->render.proxy = (ang_proxy)ang_proxy_from_name(options->proxy);
     if (isfinite(options->gpu_memory)) picture->render.gpu_memory = (size_t)(options->gpu_memory * 1e6);

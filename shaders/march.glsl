@@ -25,7 +25,3 @@ vec3 march_place(March m, int i, out float piece) {
     piece = lattice_length(i, m.count, m.reach);
     return m.start + lattice_place(i, piece) * m.direction;
 }
-
-// Samples after a visible one that are taken without asking for their blocks again: what they find invisible changes
-// nothing, and to ask costs software GL as much as to look. Loops of a known length are unrolled.
-const int march_group = 2;

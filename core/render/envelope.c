@@ -2,6 +2,7 @@
  * envelope image-order skipping, which that text leaves to others. */
 #include "core/render/context_private.h"
 #include "core/render/envelope_hull.h"
+#include "core/render/gradient_texture.h"
 #include "core/render/ray_pass.h"
 #include "core/render/scene_parts.h"
 
@@ -10,7 +11,7 @@
 #include <shaders.h>
 #include <stdlib.h>
 
-enum { UNIT_GRID = ANG_UNIT_FREE, UNIT_RANGE };
+enum { UNIT_GRID = ANG_UNIT_FREE, UNIT_RANGE, UNIT_GRADIENTS };
 
 /* Faces of the envelope. A small polygon takes software GL about 5 us, so that a frame pays for few; on a GPU as many
  * as Haferburg allows for the 64^3 cells of a 512^3 volume. */
@@ -20,19 +21,21 @@ struct ang_renderer {
     ang_ray_pass pass;
     ang_skip_grid grid;
     ang_envelope_hull hull;
+    ang_gradient_texture gradients;
 };
 
 /* What is decided about one picture. */
 typedef struct decision {
     ang_ray_frame frame;
     ang_visibility visibility;
-    bool skips, bounds, inside;
-    const char *why_no_skip, *why_no_bounds;
+    bool skips, bounds, inside, gradients;
+    const char *why_no_skip, *why_no_bounds, *why_no_gradients;
     const ang_renderer *renderer;
 } decision;
 
 static void destroy(ang_renderer *renderer) {
     if (!renderer) return;
+    ang_gradient_texture_destroy(&renderer->gradients);
     ang_envelope_hull_destroy(&renderer->hull);
     ang_skip_grid_destroy(&renderer->grid);
     ang_ray_pass_destroy(&renderer->pass);
@@ -57,11 +60,33 @@ static bool may_start_inside(const ang_ray_frame *frame) {
     return false;
 }
 
-static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, decision *d,
-                   ang_error *err) {
-    *d = (decision){.renderer = renderer};
+/* Bytes of the texture of gradients: all of it, though software GL touches visible blocks alone. */
+static size_t gradient_bytes(const ang_volume *volume) { return 8 * ang_volume_count(volume); }
+
+/* A texture of gradients pays where samples are shaded and many blocks need none. */
+static bool decide_gradients(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                             decision *d, ang_error *err) {
     const ang_volume *volume = renderer->pass.volume;
-    if (!ang_ray_pass_prepare(&renderer->pass, scene, options, &d->frame, err)) return false;
+    if (scene->mode != ANG_MODE_DVR || scene->shading != ANG_SHADING_PHONG)
+        d->why_no_gradients =
+            scene->mode == ANG_MODE_ISO ? "an iso-surface is shaded once a pixel" : "nothing is shaded";
+    else if (options->manual_filter)
+        d->why_no_gradients = "--manual-filter";
+    else if (options->gradients == ANG_GRADIENTS_LOOKUPS)
+        d->why_no_gradients = "--gradients lookups";
+    else if (!d->skips)
+        d->why_no_gradients = "it is made for visible blocks, and none is told from the others";
+    else if (options->gpu_memory && gradient_bytes(volume) + 2 * ang_volume_count(volume) > options->gpu_memory)
+        d->why_no_gradients = "--gpu-memory does not hold it";
+    d->gradients = !d->why_no_gradients;
+    renderer->gradients.build_ms = 0;
+    return !d->gradients || ang_gradient_texture_update(&renderer->gradients, renderer->pass.gl, volume,
+                                                        &renderer->grid, options->threads, err);
+}
+
+static bool decide_skipping(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                            decision *d, ang_error *err) {
+    const ang_volume *volume = renderer->pass.volume;
     d->visibility = ang_visibility_make(volume, scene, renderer->pass.table.tables);
     renderer->grid.build_ms = 0;
     if (options->no_skip)
@@ -86,6 +111,13 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     return true;
 }
 
+static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, decision *d,
+                   ang_error *err) {
+    *d = (decision){.renderer = renderer};
+    return ang_ray_pass_prepare(&renderer->pass, scene, options, &d->frame, err) &&
+           decide_skipping(renderer, scene, options, d, err) && decide_gradients(renderer, scene, options, d, err);
+}
+
 static void add_parts(const void *context, ang_shader_source *source) {
     const decision *d = context;
     if (!d->bounds) {
@@ -107,6 +139,7 @@ static void set_uniforms(const void *context, unsigned program, const ang_ray_fr
     const decision *d = context;
     if (d->skips) ang_skip_grid_bind(&d->renderer->grid, program, UNIT_GRID, frame->centre);
     if (d->bounds) ang_envelope_hull_bind(&d->renderer->hull, program, UNIT_RANGE);
+    if (d->gradients) ang_gradient_texture_bind(&d->renderer->gradients, program, UNIT_GRADIENTS);
 }
 
 static void compose_range(ang_shader_source *vertex, ang_shader_source *fragment) {
@@ -133,8 +166,9 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
                                    .bricks_total = d.skips ? grid->blocks : 1,
                                    .polygons = d.bounds ? renderer->hull.faces : 0,
                                    .passes = d.bounds ? 2 : 1,
-                                   .octree_ms = grid->build_ms};
-    const ang_ray_limits limits = {add_parts, set_uniforms, &d, d.skips};
+                                   .octree_ms = grid->build_ms,
+                                   .upload_ms = renderer->gradients.build_ms};
+    const ang_ray_limits limits = {add_parts, set_uniforms, &d, d.skips, d.gradients};
     return ang_ray_pass_draw(&renderer->pass, scene, options, &d.frame, &limits, image, stats, progress, err);
 }
 
@@ -166,12 +200,17 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
     decision d;
     if (!decide(renderer, scene, options, &d, err)) return false;
     explain_skipping(renderer, &d, plan);
+    if (d.gradients)
+        ang_plan_use(plan, "texture of gradients: %zu blocks filled, %.1f MB", renderer->gradients.blocks_filled,
+                     (double)renderer->gradients.bytes / 1e6);
+    else
+        ang_plan_leave_out(plan, "texture of gradients", "%s", d.why_no_gradients);
     if (d.bounds) {
         ang_shader_source vertex, fragment;
         compose_range(&vertex, &fragment);
         ang_shader_explain(plan, "range of each ray in the envelope", &vertex, &fragment, 0);
     }
-    const ang_ray_limits limits = {add_parts, set_uniforms, &d, d.skips};
+    const ang_ray_limits limits = {add_parts, set_uniforms, &d, d.skips, d.gradients};
     ang_ray_pass_explain(&renderer->pass, scene, options, &limits, plan);
     return true;
 }
@@ -181,7 +220,7 @@ const ang_method ang_method_envelope = {
     .title = "rays between the faces of an envelope of what shows, skipping inside it",
     .source = "Haferburg, Object order empty space skipping in OpenGL 4",
     .needs_gl = true,
-    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP,
+    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_GRADIENTS,
     .create = create,
     .render = render,
     .explain = explain,

@@ -10,6 +10,9 @@
 
 #include <stdint.h>
 
+/* Where the gradients of Phong shading come from. */
+typedef enum ang_gradients { ANG_GRADIENTS_AUTO, ANG_GRADIENTS_LOOKUPS, ANG_GRADIENTS_TEXTURE } ang_gradients;
+
 /* How a picture is made, as far as it does not change what it shows. */
 typedef struct ang_render_options {
     double step_voxels; /* sampling distance as a multiple of the smallest spacing; default 0.5 */
@@ -21,9 +24,10 @@ typedef struct ang_render_options {
     int bricks[3];  /* slicing: bricks along each axis, all visible ones drawn; 0: octree leaves, drawn where it pays */
     int pass_steps; /* slicing: planes that a fragment composites before it blends: 1, 2 or 4; default 0: as many as pay
                      */
-    bool show_bricks;  /* slicing: draw the edges of the boxes onto the picture; default false */
-    size_t gpu_memory; /* bytes of textures that the volume may take; default 0: what OpenGL gives */
-    int threads;       /* 0: all */
+    bool show_bricks;        /* slicing: draw the edges of the boxes onto the picture; default false */
+    size_t gpu_memory;       /* bytes of textures that the volume may take; default 0: what OpenGL gives */
+    ang_gradients gradients; /* envelope: where Phong's come from; default: as it pays */
+    int threads;             /* 0: all */
 } ang_render_options;
 extern const ang_render_options ang_render_options_default;
 
@@ -51,7 +55,8 @@ typedef enum ang_method_takes {
     ANG_TAKES_BRICKS = 16,
     ANG_TAKES_PASS_STEPS = 32,
     ANG_TAKES_SHOW_BRICKS = 64,
-    ANG_TAKES_GPU_MEMORY = 128
+    ANG_TAKES_GPU_MEMORY = 128,
+    ANG_TAKES_GRADIENTS = 256
 } ang_method_takes;
 
 typedef struct ang_gl ang_gl;             /* core/render/context.h */

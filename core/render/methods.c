@@ -28,6 +28,7 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
     if (options->pass_steps) given |= ANG_TAKES_PASS_STEPS;
     if (options->show_bricks) given |= ANG_TAKES_SHOW_BRICKS;
     if (options->gpu_memory) given |= ANG_TAKES_GPU_MEMORY;
+    if (options->gradients) given |= ANG_TAKES_GRADIENTS;
     return given & ~method->takes;
 }
 

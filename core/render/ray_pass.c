@@ -52,15 +52,17 @@ double ang_ray_step(const ang_volume *volume, const ang_render_options *options)
 static ang_shader_source compose(const ang_ray_pass *pass, const ang_scene *scene, const ang_render_options *options,
                                  const ang_ray_limits *limits, bool counting) {
     const ang_volume *volume = pass->volume;
-    bool manual = options->manual_filter;
+    ang_field_kind kind = limits->gradients        ? ANG_FIELD_GRADIENTS
+                          : options->manual_filter ? ANG_FIELD_MANUAL
+                                                   : ANG_FIELD_HARDWARE;
     ang_shader_source source = {.count = 0};
     ANG_SHADER_ADD(&source, version);
     ANG_SHADER_ADD(&source, ray);
     ANG_SHADER_ADD(&source, lattice);
-    ang_parts_field(&source, manual);
-    ang_parts_classification(&source, scene);
+    ang_parts_field(&source, kind);
+    ang_parts_classification(&source, scene, kind);
     limits->parts(limits->context, &source);
-    ang_parts_march(&source, scene, volume, manual, &pass->table, 1.01 * ang_ray_step(volume, options), limits->skips);
+    ang_parts_march(&source, scene, volume, kind, &pass->table, 1.01 * ang_ray_step(volume, options), limits->skips);
     if (counting)
         ANG_SHADER_ADD(&source, picture_counted);
     else
@@ -155,5 +157,6 @@ void ang_ray_pass_explain(const ang_ray_pass *pass, const ang_scene *scene, cons
         ang_plan_leave_out(plan, "early termination", "rays are not to end early");
     ang_shader_source vertex = compose_vertex();
     ang_shader_source fragment = compose(pass, scene, options, limits, false);
-    ang_shader_explain(plan, "rays", &vertex, &fragment, ang_scene_lookups(scene, pass->volume));
+    ang_shader_explain(plan, "rays", &vertex, &fragment,
+                       limits->gradients ? 2 : ang_scene_lookups(scene, pass->volume));
 }

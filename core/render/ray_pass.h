@@ -26,7 +26,8 @@ typedef struct ang_ray_limits {
     void (*parts)(const void *context, ang_shader_source *source);
     void (*uniforms)(const void *context, unsigned program, const ang_ray_frame *frame);
     const void *context;
-    bool skips; /* a part skips */
+    bool skips;     /* a part skips */
+    bool gradients; /* values and gradients from ang_gradient_texture, whose uniforms are set with the others */
 } ang_ray_limits;
 
 /* Uploads the volume. False with ANG_GL where `gl` is NULL, and with ANG_LIMIT. */

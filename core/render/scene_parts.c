@@ -47,9 +47,11 @@ void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume 
                            volume->padding ? "only mode mean leaves padding out" : "the volume has no padding");
 }
 
-void ang_parts_field(ang_shader_source *source, bool manual) {
+void ang_parts_field(ang_shader_source *source, ang_field_kind kind) {
     ANG_SHADER_ADD(source, field);
-    if (manual) {
+    if (kind == ANG_FIELD_GRADIENTS) {
+        ANG_SHADER_ADD(source, field_gradient);
+    } else if (kind == ANG_FIELD_MANUAL) {
         ANG_SHADER_ADD(source, trilinear);
         ANG_SHADER_ADD(source, field_manual);
     } else {
@@ -57,7 +59,7 @@ void ang_parts_field(ang_shader_source *source, bool manual) {
     }
 }
 
-void ang_parts_classification(ang_shader_source *source, const ang_scene *scene) {
+void ang_parts_classification(ang_shader_source *source, const ang_scene *scene, ang_field_kind kind) {
     if (!ang_scene_needs_table(scene)) {
         ANG_SHADER_ADD(source, window);
         return;
@@ -68,7 +70,10 @@ void ang_parts_classification(ang_shader_source *source, const ang_scene *scene)
         ANG_SHADER_ADD(source, stored_near);
     ANG_SHADER_ADD(source, transfer);
     if (ang_scene_needs_phong(scene)) {
-        ANG_SHADER_ADD(source, gradient);
+        if (kind == ANG_FIELD_GRADIENTS)
+            ANG_SHADER_ADD(source, gradient_texture);
+        else
+            ANG_SHADER_ADD(source, gradient);
         ANG_SHADER_ADD(source, shade_phong);
     } else {
         ANG_SHADER_ADD(source, shade_none);
@@ -83,18 +88,23 @@ void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table
         ANG_SHADER_ADD(source, opacity_any);
 }
 
-void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual) {
+void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume,
+                      ang_field_kind kind) {
     if (!ang_scene_needs_weight(scene, volume))
         ANG_SHADER_ADD(source, weight_one);
-    else if (manual)
+    else if (kind == ANG_FIELD_MANUAL)
         ANG_SHADER_ADD(source, weight_manual);
     else
         ANG_SHADER_ADD(source, weight_hardware);
 }
 
-void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual,
+void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
                      const ang_table_texture *table, double length, bool skips) {
     ANG_SHADER_ADD(source, march);
+    if (kind == ANG_FIELD_GRADIENTS)
+        ANG_SHADER_ADD(source, march_single);
+    else
+        ANG_SHADER_ADD(source, march_pairs);
     switch (scene->mode) {
     case ANG_MODE_DVR:
         ang_parts_opacity(source, table, length);
@@ -110,7 +120,7 @@ void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const an
         ANG_SHADER_ADD(source, march_minip);
         break;
     case ANG_MODE_MEAN:
-        ang_parts_weight(source, scene, volume, manual);
+        ang_parts_weight(source, scene, volume, kind);
         ANG_SHADER_ADD(source, march_mean);
         break;
     case ANG_MODE_ISO:

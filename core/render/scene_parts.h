@@ -22,10 +22,17 @@ int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume);
 /* Adds to the plan what the scene itself takes and leaves out, whatever the method. */
 void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume);
 
+/* Where values and gradients come from. */
+typedef enum ang_field_kind {
+    ANG_FIELD_HARDWARE, /* the texture unit interpolates */
+    ANG_FIELD_MANUAL,   /* the shader does: --manual-filter */
+    ANG_FIELD_GRADIENTS /* from the texture that has gradients beside the values */
+} ang_field_kind;
+
 /* Parts: field_at; stored_from, transfer_at and shade, or window_grey; weight_at. */
-void ang_parts_field(ang_shader_source *source, bool manual);
-void ang_parts_classification(ang_shader_source *source, const ang_scene *scene);
-void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual);
+void ang_parts_field(ang_shader_source *source, ang_field_kind kind);
+void ang_parts_classification(ang_shader_source *source, const ang_scene *scene, ang_field_kind kind);
+void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind);
 
 /* opacity_of for samples that stand for at most `length` mm of a ray: no exponential where none is thick enough. */
 void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table, double length);
@@ -33,7 +40,7 @@ void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table
 /* march, the loop along a ray, of the scene's mode, with the parts that it needs beside field and classification; the
  * parts that bound it and that skip (bounds_*.glsl, skip_*.glsl) must be there. `length`: mm that a sample stands for,
  * at most; `skips`: whether the part that skips does. */
-void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, bool manual,
+void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
                      const ang_table_texture *table, double length, bool skips);
 
 /* clip_x, clip_y and clip_w of what projects places of index space. */

@@ -33,7 +33,7 @@ static void set_no_uniforms(const void *context, unsigned program, const ang_ray
     (void)context, (void)program, (void)frame;
 }
 
-static const ang_ray_limits whole_box = {add_parts, set_no_uniforms, NULL, false};
+static const ang_ray_limits whole_box = {add_parts, set_no_uniforms, NULL, false, false};
 
 static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {

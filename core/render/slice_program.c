@@ -23,11 +23,11 @@ bool ang_slice_needs_resolve(const ang_scene *scene) {
 
 static void compose_value(ang_shader_source *source, bool faces, const ang_slice_recipe *recipe) {
     const ang_scene *scene = recipe->scene;
-    bool manual = recipe->options->manual_filter;
-    ang_parts_field(source, manual);
+    ang_field_kind kind = recipe->options->manual_filter ? ANG_FIELD_MANUAL : ANG_FIELD_HARDWARE;
+    ang_parts_field(source, kind);
     switch (scene->mode) {
     case ANG_MODE_DVR:
-        ang_parts_classification(source, scene);
+        ang_parts_classification(source, scene, kind);
         /* The first and the last sample stand for more, the only one of a ray for almost two steps. */
         ang_parts_opacity(source, recipe->table, (faces ? 2 : 1) * recipe->length);
         ANG_SHADER_ADD(source, slice_dvr);
@@ -39,11 +39,11 @@ static void compose_value(ang_shader_source *source, bool faces, const ang_slice
         ANG_SHADER_ADD(source, slice_minip);
         break;
     case ANG_MODE_MEAN:
-        ang_parts_weight(source, scene, recipe->volume, manual);
+        ang_parts_weight(source, scene, recipe->volume, kind);
         ANG_SHADER_ADD(source, slice_mean);
         break;
     case ANG_MODE_ISO:
-        ang_parts_classification(source, scene);
+        ang_parts_classification(source, scene, kind);
         ANG_SHADER_ADD(source, slice_iso);
         break;
     }

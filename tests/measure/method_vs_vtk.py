@@ -1,13 +1,16 @@
 #!/usr/bin/python3
-"""Slicing against VTK's GPU mapper on the same software OpenGL: the phantom, 512x512 pixels, the same orbit and transfer
-function, in turns in one run; medians over the orbit and the ratio. Needs python3-vtk9, python3-numpy, Xvfb and a folder
-with bench_vtk.py, xrun.sh and tf/. Usage: slicing_vs_vtk.py PROGRAM PHANTOM BENCH [ROUNDS] [METHOD]"""
+"""A method against one of VTK's mappers on the same machine: a series, the same orbit and transfer function, in turns in one
+run; medians over the orbit and the ratio. Needs python3-vtk9, python3-numpy, Xvfb and a folder with bench_vtk.py, xrun.sh
+and tf/. Usage: method_vs_vtk.py PROGRAM SERIES BENCH [ROUNDS] [METHOD] [gpu|cpu] [SIDE]"""
 import json, os, statistics, struct, subprocess, sys, tempfile
 import numpy as np
 
 program, phantom, bench = sys.argv[1:4]
 rounds = int(sys.argv[4]) if len(sys.argv) > 4 else 2
 method = sys.argv[5] if len(sys.argv) > 5 else 'slicing'
+mapper = sys.argv[6] if len(sys.argv) > 6 else 'gpu'
+side = sys.argv[7] if len(sys.argv) > 7 else '512'
+size = f'{side}x{side}'
 frames = 12
 
 
@@ -34,14 +37,14 @@ def ours(step, shaded):
     text = subprocess.run(
         [program, 'render', phantom, '-q', '-o', os.path.join(work, 'x.png'), '--preset',
          os.path.join(bench, 'tf', 'angio.json'), '--method', method, '--view', '0,20', '--zoom', '1.7', '--step', str(step),
-         '--shading', 'phong' if shaded else 'none', '--backend', 'osmesa', '--repeat', str(frames), '--orbit', '360',
+         '--shading', 'phong' if shaded else 'none', '--backend', 'osmesa', '--size', size, '--repeat', str(frames), '--orbit', '360',
          '--json', '-'], check=True, capture_output=True, text=True).stdout
     return json.loads(text)['time_ms']['frame_median']
 
 
 def theirs(step, shaded):
     text = subprocess.run(
-        [os.path.join(bench, 'xrun.sh'), '/usr/bin/python3', os.path.join(bench, 'bench_vtk.py'), volume, '--mapper', 'gpu',
+        [os.path.join(bench, 'xrun.sh'), '/usr/bin/python3', os.path.join(bench, 'bench_vtk.py'), volume, '--mapper', mapper, '--size', size,
          '--tf', os.path.join(bench, 'tf', 'angio.json'), '--shade', str(int(shaded)), '--step', str(step), '--frames',
          str(frames)], check=True, capture_output=True, text=True).stdout
     return float(text.split('\t')[8])
@@ -56,5 +59,5 @@ with tempfile.TemporaryDirectory() as work:
                 a.append(ours(step, shaded))
                 b.append(theirs(step, shaded))
             x, y = statistics.median(a), statistics.median(b)
-            print(f'step {step} voxel, {"shaded" if shaded else "plain":6}: {method} {x:.0f} ms, VTK {y:.0f} ms, ratio '
+            print(f'step {step} voxel, {"shaded" if shaded else "plain":6}: {method} {x:.0f} ms, VTK {mapper} {y:.0f} ms, ratio '
                   f'{x / y:.2f}', flush=True)
