@@ -47,7 +47,10 @@ static const option_spec table[] = {
     REAL_OPTION("shift", ANG_VERB_RENDER, shift, "HU", -1e5, 1e5, "0", "HU",
                 "moves the preset's transfer function along the HU axis"),
     CHOICE_OPTION("method", method, "auto|slicing|envelope|singlepass|reference", "auto", "rendering method"),
-    CHOICE_OPTION("mode", mode, "dvr|mip|minip|mean|iso", NULL, "what a ray shows; default: the preset's"),
+    CHOICE_OPTION(
+        "mode", mode, "dvr|mip|minip|mean|iso|lookups", NULL,
+        "what a ray shows; default: the preset's; lookups: how many samples each pixel of that took, as a heat "
+        "map"),
     REAL_OPTION("iso", ANG_VERB_RENDER, iso, "HU", -1e6, 1e6, NULL, "HU",
                 "iso value for --mode iso; default: the preset's"),
     CHOICE_OPTION("shading", shading, "none|phong", NULL, "shading in mode dvr; default: the preset's"),

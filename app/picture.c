@@ -92,7 +92,8 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
         if (!picture->shifted) return false;
         scene->transfer = picture->shifted;
     }
-    scene->mode = options->mode ? (ang_mode)ang_mode_from_name(options->mode) : preset->mode;
+    picture->lookups = options->mode && strcmp(options->mode, "lookups") == 0;
+    scene->mode = options->mode && !picture->lookups ? (ang_mode)ang_mode_from_name(options->mode) : preset->mode;
     scene->shading = options->shading ? (ang_shading)ang_shading_from_name(options->shading) : preset->shading;
     scene->phong = preset->phong;
     scene->window_centre = preset->window_centre + options->shift;

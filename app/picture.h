@@ -17,6 +17,7 @@ typedef struct ang_picture {
     ang_view view;
     ang_scene scene;
     ang_render_options render;
+    bool lookups; /* not the picture is wanted but how many samples each of its pixels took */
 } ang_picture;
 
 /* Reads the preset that the user named, where there is one, so that a broken preset or option is refused before the

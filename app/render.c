@@ -3,6 +3,8 @@
 #include "app/render_json.h"
 #include "app/verbs.h"
 #include "core/base/clock.h"
+#include "core/base/memory.h"
+#include "core/error/metrics.h"
 #include "core/render/context.h"
 #include "io/image/annotate.h"
 #include "io/image/image_io.h"
@@ -28,6 +30,7 @@ typedef struct session {
     const ang_method *method;
     ang_renderer *renderer;
     ang_image image;
+    float *counts; /* of each pixel, for --mode lookups */
     ang_render_summary summary;
 } session;
 
@@ -186,6 +189,21 @@ static void note_flat(session *run) {
                   ang_load_report_hounsfield(&run->report) ? " HU" : "");
 }
 
+/* The picture of how many samples each pixel took, instead of the picture itself. */
+static bool show_counts(session *run, const ang_frame_stats *stats, ang_error *err) {
+    int width = run->image.width, height = run->image.height;
+    float most = 0;
+    for (size_t i = 0; i < (size_t)width * (size_t)height; i++) most = fmaxf(most, stats->counts[i]);
+    ang_image heat;
+    if (!ang_heat_image(stats->counts, most, width, height, &heat, err)) return false;
+    ang_image_clear(&run->image);
+    run->image = heat;
+    if (!run->options->quiet)
+        fprintf(stderr, "samples a pixel, from none (black) to %.0f (yellow); %.1f on average\n", (double)most,
+                (double)stats->samples / ((double)width * height));
+    return true;
+}
+
 static void turn_camera(session *run, double degrees) {
     ang_view view = run->picture.view;
     view.azimuth_deg += degrees;
@@ -209,15 +227,28 @@ static bool write_picture(session *run, const char *path, ang_error *err) {
     return ang_image_write(path, &run->image, run->picture.scene.background, err);
 }
 
+/* Room for the counts of --mode lookups; NULL where they are not wanted, or with an error. */
+static float *make_counts(session *run, ang_error *err) {
+    const ang_scene *scene = &run->picture.scene;
+    if (!run->picture.lookups) return NULL;
+    if (!run->method->needs_gl) {
+        ang_fail(err, ANG_USAGE, "--mode lookups: --method %s takes no samples; choose another", run->method->name);
+        return NULL;
+    }
+    run->counts = ang_alloc((size_t)scene->width * (size_t)scene->height, sizeof *run->counts, "counts", err);
+    return run->counts;
+}
+
 static bool render_all(session *run, ang_error *err) {
     const ang_options *options = run->options;
     if (!ang_image_create(&run->image, run->picture.scene.width, run->picture.scene.height, err)) return false;
+    if (run->picture.lookups && !make_counts(run, err)) return false;
     for (int frame = 0; frame < options->frames; frame++) {
         char path[4096];
         double milliseconds;
         turn_camera(run, options->orbit * frame / options->frames);
         frame_progress progress = {.what = "rendering", .frame = frame, .frames = options->frames};
-        ang_frame_stats stats = {0};
+        ang_frame_stats stats = {.counts = run->counts};
         if (!render_frame(run, &progress, &stats, &milliseconds, err)) return false;
         if (stats.note) ang_notes_add(&run->summary.warnings, "%s", stats.note);
         if (frame == 0) {
@@ -226,8 +257,12 @@ static bool render_all(session *run, ang_error *err) {
             if (!explain(run, err)) return false;
         }
         note_step(run);
-        note_empty(run);
-        note_flat(run);
+        if (run->picture.lookups) {
+            if (!show_counts(run, &stats, err)) return false;
+        } else {
+            note_empty(run);
+            note_flat(run);
+        }
         frame_path(options->output, frame, options->frames, path, sizeof path);
         if (!write_picture(run, path, err)) return false;
         if (!options->quiet && options->verbose) fprintf(stderr, "%s: %.0f ms\n", path, milliseconds);
@@ -312,6 +347,7 @@ int ang_app_render(const ang_options *options, ang_error *err) {
     if (run.method && run.renderer) run.method->destroy(run.renderer);
     if (run.gl) ang_gl_destroy(run.gl);
     ang_image_clear(&run.image);
+    free(run.counts);
     ang_picture_clear(&run.picture);
     ang_plan_clear(&run.summary.plan);
     ang_notes_clear(&run.summary.warnings);

@@ -54,7 +54,8 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     ang_reference_free(reference);
     if (job.cancelled) return ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering the reference");
     if (stats)
-        *stats = (ang_frame_stats){.samples = job.samples,
+        *stats = (ang_frame_stats){.counts = stats->counts,
+                                   .samples = job.samples,
                                    .fragments = (uint64_t)image->width * (uint64_t)image->height,
                                    .bricks_drawn = 1,
                                    .bricks_total = 1,

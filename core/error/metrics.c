@@ -118,33 +118,44 @@ bool ang_metrics_compute(const ang_image *a, const ang_image *b, bool quantised,
     return similarity(a, b, quantised, &out->ssim, err);
 }
 
-bool ang_metrics_heat(const ang_image *a, const ang_image *b, bool quantised, ang_image *out, double *scale,
-                      ang_error *err) {
+bool ang_heat_image(const float *values, double scale, int width, int height, ang_image *out, ang_error *err) {
     *out = (ang_image){0};
 #ifdef ANG_WITH_OPENCV
-    if (!same_size(a, b, err) || !ang_image_create(out, a->width, a->height, err)) return false;
-    size_t count = (size_t)a->width * (size_t)a->height;
-    float *values = ang_alloc(count, sizeof *values, "heat map", err);
-    unsigned char *rgb = values ? ang_alloc(3 * count, 1, "heat map", err) : NULL;
+    size_t count = (size_t)width * (size_t)height;
+    if (!ang_image_create(out, width, height, err)) return false;
+    float *shares = ang_alloc(count, sizeof *shares, "heat map", err);
+    unsigned char *rgb = shares ? ang_alloc(3 * count, 1, "heat map", err) : NULL;
     bool good = rgb != NULL;
     if (good) {
-        differences(a, b, quantised, values);
-        float largest = 0;
-        for (size_t i = 0; i < count; i++) largest = fmaxf(largest, values[i]);
-        for (size_t i = 0; i < count && largest > 0; i++) values[i] /= largest;
-        if (scale) *scale = largest;
-        good = ang_opencv_heat(values, a->width, a->height, rgb) || ang_fail(err, ANG_LIMIT, "OpenCV made no heat map");
+        for (size_t i = 0; i < count; i++) shares[i] = scale > 0 ? (float)(values[i] / scale) : 0;
+        good = ang_opencv_heat(shares, width, height, rgb) || ang_fail(err, ANG_LIMIT, "OpenCV made no heat map");
     }
     for (size_t i = 0; good && i < count; i++) {
         for (size_t c = 0; c < 3; c++) out->rgba[4 * i + c] = (float)rgb[3 * i + c] / 255;
         out->rgba[4 * i + 3] = 1;
     }
-    free(values);
+    free(shares);
     free(rgb);
     if (!good) ang_image_clear(out);
     return good;
 #else
-    (void)a, (void)b, (void)quantised, (void)scale;
+    (void)values, (void)scale, (void)width, (void)height;
     return ang_fail(err, ANG_USAGE, "this build has no OpenCV (ANG_WITH_OPENCV), which colours the heat map");
 #endif
+}
+
+bool ang_metrics_heat(const ang_image *a, const ang_image *b, bool quantised, ang_image *out, double *scale,
+                      ang_error *err) {
+    *out = (ang_image){0};
+    if (!same_size(a, b, err)) return false;
+    size_t count = (size_t)a->width * (size_t)a->height;
+    float *values = ang_alloc(count, sizeof *values, "heat map", err);
+    if (!values) return false;
+    differences(a, b, quantised, values);
+    float largest = 0;
+    for (size_t i = 0; i < count; i++) largest = fmaxf(largest, values[i]);
+    if (scale) *scale = largest;
+    bool good = ang_heat_image(values, largest, a->width, a->height, out, err);
+    free(values);
+    return good;
 }

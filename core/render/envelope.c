@@ -162,7 +162,8 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     if (d.bounds && !draw_range(renderer, scene, &d, err)) return false;
     const ang_skip_grid *grid = &renderer->grid;
     if (stats)
-        *stats = (ang_frame_stats){.bricks_drawn = d.skips ? grid->visible_blocks : 1,
+        *stats = (ang_frame_stats){.counts = stats->counts,
+                                   .bricks_drawn = d.skips ? grid->visible_blocks : 1,
                                    .bricks_total = d.skips ? grid->blocks : 1,
                                    .polygons = d.bounds ? renderer->hull.faces : 0,
                                    .passes = d.bounds ? 2 : 1,

@@ -33,6 +33,7 @@ extern const ang_render_options ang_render_options_default;
 
 /* What one frame did. */
 typedef struct ang_frame_stats {
+    float *counts;    /* set by the caller: room for the samples of each pixel, width * height; NULL: not wanted */
     uint64_t samples; /* field evaluations along rays, shading left out; slicing an iso-surface: those that were hits */
     uint64_t fragments; /* rays shaded; slicing: fragments, those that hold no sample included; 0: not known */
     double step_mm;     /* sampling distance used, greater than asked for where the method has a limit; 0: exact */

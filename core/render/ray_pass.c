@@ -105,7 +105,8 @@ static bool draw_bands(const ang_ray_pass *pass, ang_image *image, ang_frame_sta
         glScissor(0, first, target->width, rows);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         ang_target_read(target, first, rows, image);
-        if (stats) ang_target_read_counts(target, first, rows, counts, &stats->samples, &stats->fragments);
+        float *into = stats && stats->counts ? stats->counts + (size_t)first * (size_t)target->width : counts;
+        if (stats) ang_target_read_counts(target, first, rows, into, &stats->samples, &stats->fragments);
         going = ang_progress_update(progress, "rendering", (double)(first + rows) / target->height);
     }
     free(counts);

@@ -39,7 +39,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
     ang_ray_frame frame;
     if (!ang_ray_pass_prepare(&renderer->pass, scene, options, &frame, err)) return false;
-    if (stats) *stats = (ang_frame_stats){.bricks_drawn = 1, .bricks_total = 1, .passes = 1};
+    if (stats) *stats = (ang_frame_stats){.counts = stats->counts, .bricks_drawn = 1, .bricks_total = 1, .passes = 1};
     return ang_ray_pass_draw(&renderer->pass, scene, options, &frame, &whole_box, image, stats, progress, err);
 }
 

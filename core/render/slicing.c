@@ -232,11 +232,12 @@ static bool draw_edges(ang_renderer *renderer, const ang_scene *scene, const ang
 }
 
 static bool read_counts(const ang_target *target, ang_frame_stats *stats, ang_error *err) {
-    float *counts = ang_alloc((size_t)target->width * (size_t)target->height, sizeof *counts, "counts", err);
-    if (!counts) return false;
+    size_t room = (size_t)target->width * (size_t)target->height;
+    float *own = stats->counts ? NULL : ang_alloc(room, sizeof *own, "counts", err);
+    if (!stats->counts && !own) return false;
     uint64_t pixels = 0;
-    ang_target_read_counts(target, 0, target->height, counts, &stats->samples, &pixels);
-    free(counts);
+    ang_target_read_counts(target, 0, target->height, own ? own : stats->counts, &stats->samples, &pixels);
+    free(own);
     return true;
 }
 
@@ -322,7 +323,7 @@ static bool draw(ang_renderer *renderer, const ang_scene *scene, const ang_rende
 static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
     ang_slicing s;
-    ang_frame_stats done = {0};
+    ang_frame_stats done = {.counts = stats ? stats->counts : NULL};
     uint64_t uploads = renderer->store.uploads;
     bool ok = ang_slicing_decide(renderer, scene, options, &s, err) &&
               draw(renderer, scene, options, &s, image, stats != NULL, &done, progress, err);

@@ -67,6 +67,14 @@ static void what_a_method_cannot_do_is_said(void **state) {
     assert_non_null(strstr(output, "--passes-steps 3"));
 }
 
+static void lookups_are_a_heat_map(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method envelope --mode lookups 2>&1");
+    assert_non_null(strstr(output, "samples a pixel, from none (black) to"));
+    expect(2, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method reference --mode lookups 2>&1");
+    assert_non_null(strstr(output, "--mode lookups"));
+}
+
 static void json_takes_no_value_but_for_render(void **state) {
     (void)state;
     static const char *const commands[] = {"info " PHANTOM " --json - 2>&1", "info " PHANTOM " --json x.json 2>&1",
@@ -383,6 +391,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(usage_errors_give_two),
         cmocka_unit_test(what_a_method_cannot_do_is_said),
+        cmocka_unit_test(lookups_are_a_heat_map),
         cmocka_unit_test(json_takes_no_value_but_for_render),
         cmocka_unit_test(help_goes_to_stdout),
         cmocka_unit_test(phantoms_that_cannot_be_are_refused),

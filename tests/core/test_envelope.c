@@ -156,13 +156,17 @@ static void skipping_spares_samples_and_termination_keeps_its_bound(void **state
         ang_render_options all = exact, early = exact;
         all.no_skip = true;
         early.termination = 0.95;
-        ang_frame_stats every = {0}, some = {0}, few = {0};
+        static float counts[width * height];
+        ang_frame_stats every = {0}, some = {.counts = counts}, few = {0};
         ang_image truth = draw(&envelope, &scene, &all, &every), skipped = draw(&envelope, &scene, &exact, &some);
         ang_image ended = draw(&envelope, &scene, &early, &few);
         assert_true(difference(&truth, &skipped) == 0);
         assert_true(difference(&truth, &ended) <= 0.05 + 1e-6);
         assert_true(some.samples < 0.8 * (double)every.samples);
         assert_true(few.samples <= some.samples);
+        double sum = 0;
+        for (int i = 0; i < width * height; i++) sum += counts[i];
+        assert_true((uint64_t)sum == some.samples);
         ang_image_clear(&truth);
     }
     envelope.method->destroy(envelope.renderer);
