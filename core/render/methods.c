@@ -44,8 +44,6 @@ const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const 
     *why = "an option asks for slicing";
     if (options->bricks[0] || options->show_bricks || options->pass_steps || options->proxy != ANG_PROXY_VERTEX_PROGRAM)
         return &ang_method_slicing;
-    *why = "in modes dvr and iso boxes that show nothing can be skipped";
-    if (scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO) return &ang_method_slicing;
-    *why = "every sample counts in this mode, and those of a single pass are the cheapest";
-    return &ang_method_singlepass;
+    *why = "it takes the fewest samples: rays skip what shows nothing";
+    return &ang_method_envelope;
 }

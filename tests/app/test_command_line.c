@@ -57,21 +57,21 @@ static void usage_errors_give_two(void **state) {
 
 static void what_a_method_cannot_do_is_said(void **state) {
     (void)state;
-    expect(0, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method singlepass --bricks 2x2x2 2>&1");
+    expect(0, "render " PHANTOM " -o " TMP "/said.png --size 32x32 --method singlepass --bricks 2x2x2 2>&1");
     assert_non_null(strstr(output, "warning: --bricks has no effect with --method singlepass"));
-    expect(0, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method slicing --step 20 2>&1");
+    expect(0, "render " PHANTOM " -o " TMP "/said.png --size 32x32 --method slicing --step 20 2>&1");
     assert_non_null(strstr(output, "20 voxels: what is thinner may be missed"));
-    expect(0, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method slicing --fov 170 --zoom 20 2>&1");
+    expect(0, "render " PHANTOM " -o " TMP "/said.png --size 32x32 --method slicing --fov 170 --zoom 20 2>&1");
     assert_non_null(strstr(output, "so wide a field of view"));
-    expect(2, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method slicing --passes-steps 3 2>&1");
+    expect(2, "render " PHANTOM " -o " TMP "/said.png --size 32x32 --method slicing --passes-steps 3 2>&1");
     assert_non_null(strstr(output, "--passes-steps 3"));
 }
 
 static void lookups_are_a_heat_map(void **state) {
     (void)state;
-    expect(0, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method envelope --mode lookups 2>&1");
+    expect(0, "render " PHANTOM " -o " TMP "/said.png --size 32x32 --method envelope --mode lookups 2>&1");
     assert_non_null(strstr(output, "samples a pixel, from none (black) to"));
-    expect(2, "render " PHANTOM " -o " TMP "/x.png --size 32x32 --method reference --mode lookups 2>&1");
+    expect(2, "render " PHANTOM " -o " TMP "/said.png --size 32x32 --method reference --mode lookups 2>&1");
     assert_non_null(strstr(output, "--mode lookups"));
 }
 
