@@ -95,7 +95,8 @@ static bool decide_skipping(ang_renderer *renderer, const ang_scene *scene, cons
         d->why_no_skip = "every value counts in a mean";
     d->why_no_bounds = d->why_no_skip;
     if (d->why_no_skip) return true;
-    if (!ang_skip_grid_update(&renderer->grid, renderer->pass.gl, volume, &d->visibility, options->threads, err))
+    const ang_volume_texture *field = ang_gl_is_software(renderer->pass.gl) ? NULL : &renderer->pass.field;
+    if (!ang_skip_grid_update(&renderer->grid, renderer->pass.gl, volume, field, &d->visibility, options->threads, err))
         return false;
     if (renderer->grid.visible_blocks == renderer->grid.blocks) {
         d->why_no_skip = d->why_no_bounds = "no block of the volume is invisible";
@@ -180,6 +181,10 @@ static void explain_skipping(const ang_renderer *renderer, const decision *d, an
     } else {
         ang_plan_use(plan, "skipping by the distance to the next visible block: %zu of %zu blocks of 8x8x8 cells show",
                      grid->visible_blocks, grid->blocks);
+        if (ang_gl_is_software(renderer->pass.gl))
+            ang_plan_leave_out(plan, "ranges of blocks by compute shader", "without a GPU the processor is faster");
+        else
+            ang_plan_use(plan, "ranges of blocks by compute shader");
         if (grid->visible_blocks < grid->blocks)
             ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s",
                                grid->blocks - grid->visible_blocks, grid->blocks,

@@ -92,22 +92,27 @@ static bool link_program(GLuint program, const char *title, ang_error *err) {
                     title, first_error(log));
 }
 
-/* A vertex shader and another of `kind`; `capture`: the varying that transform feedback keeps, or NULL. */
+/* A vertex shader (or NULL) and another of `kind`; `capture`: the varying that transform feedback keeps, or NULL. */
 static GLuint build(const char *title, const ang_shader_source *vertex, GLenum kind, const ang_shader_source *other,
                     const char *capture, ang_error *err) {
     GLuint program = glCreateProgram();
-    GLuint shaders[2] = {glCreateShader(GL_VERTEX_SHADER), glCreateShader(kind)};
-    bool ok = compile(shaders[0], title, vertex, err) && compile(shaders[1], title, other, err);
+    GLuint shaders[2] = {glCreateShader(kind), vertex ? glCreateShader(GL_VERTEX_SHADER) : 0};
+    bool ok = compile(shaders[0], title, other, err) && (!vertex || compile(shaders[1], title, vertex, err));
+    int count = vertex ? 2 : 1;
     if (ok) {
-        for (int i = 0; i < 2; i++) glAttachShader(program, shaders[i]);
+        for (int i = 0; i < count; i++) glAttachShader(program, shaders[i]);
         if (capture) glTransformFeedbackVaryings(program, 1, &capture, GL_INTERLEAVED_ATTRIBS);
         ok = link_program(program, title, err);
-        for (int i = 0; i < 2; i++) glDetachShader(program, shaders[i]);
+        for (int i = 0; i < count; i++) glDetachShader(program, shaders[i]);
     }
-    for (int i = 0; i < 2; i++) glDeleteShader(shaders[i]);
+    for (int i = 0; i < count; i++) glDeleteShader(shaders[i]);
     if (ok) return program;
     glDeleteProgram(program);
     return 0;
+}
+
+unsigned ang_program_compute(const char *title, const ang_shader_source *compute, ang_error *err) {
+    return build(title, NULL, GL_COMPUTE_SHADER, compute, NULL, err);
 }
 
 unsigned ang_program_capture(const char *title, const ang_shader_source *vertex, const ang_shader_source *geometry,

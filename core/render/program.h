@@ -47,6 +47,8 @@ unsigned ang_programs_get(ang_programs *programs, const char *title, const ang_s
  * The caller deletes it. 0 as above. */
 unsigned ang_program_capture(const char *title, const ang_shader_source *vertex, const ang_shader_source *geometry,
                              const char *capture, ang_error *err);
+/* A compute program, which the caller deletes. 0 as above. */
+unsigned ang_program_compute(const char *title, const ang_shader_source *compute, ang_error *err);
 /* Deletes all programs; the context must be current. */
 void ang_programs_clear(ang_programs *programs);
 

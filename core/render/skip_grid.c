@@ -3,15 +3,25 @@
 #include "core/base/clock.h"
 #include "core/base/memory.h"
 #include "core/plan/distance.h"
+#include "core/render/leaf_ranges.h"
 
 #include <glad/gl.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool make(ang_skip_grid *grid, const ang_volume *volume, int threads, ang_error *err) {
+static bool make_octree(ang_skip_grid *grid, ang_gl *gl, const ang_volume *volume, const ang_volume_texture *field,
+                        int threads, ang_error *err) {
+    grid->octree = field ? ang_octree_allocate(volume, NULL, 1, err) : ang_octree_build(volume, NULL, 1, threads, err);
+    if (!grid->octree || !field) return grid->octree != NULL;
+    if (!ang_leaf_ranges_compute(gl, field, grid->octree, err)) return false;
+    ang_octree_finish(grid->octree, threads);
+    return true;
+}
+
+static bool make(ang_skip_grid *grid, ang_gl *gl, const ang_volume *volume, const ang_volume_texture *field,
+                 int threads, ang_error *err) {
     double start = ang_now_ms();
-    grid->octree = ang_octree_build(volume, NULL, 1, threads, err);
-    if (!grid->octree) return false;
+    if (!make_octree(grid, gl, volume, field, threads, err)) return false;
     grid->build_ms = ang_now_ms() - start;
     const int *dims = grid->octree->level[0].dims;
     grid->blocks = (size_t)dims[0] * (size_t)dims[1] * (size_t)dims[2];
@@ -49,12 +59,12 @@ static void upload(ang_skip_grid *grid, const uint8_t *before) {
     grid->blocks_uploaded = plane * (size_t)(end - first);
 }
 
-bool ang_skip_grid_update(ang_skip_grid *grid, ang_gl *gl, const ang_volume *volume, const ang_visibility *visibility,
-                          int threads, ang_error *err) {
+bool ang_skip_grid_update(ang_skip_grid *grid, ang_gl *gl, const ang_volume *volume, const ang_volume_texture *field,
+                          const ang_visibility *visibility, int threads, ang_error *err) {
     bool fresh = !grid->texture;
     grid->build_ms = 0;
     grid->blocks_uploaded = 0;
-    if (fresh && !make(grid, volume, threads, err)) {
+    if (fresh && !make(grid, gl, volume, field, threads, err)) {
         ang_skip_grid_destroy(grid);
         return false;
     }

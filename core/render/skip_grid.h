@@ -6,6 +6,7 @@
 #include "core/plan/visibility.h"
 #include "core/render/context.h"
 #include "core/render/program.h"
+#include "core/render/volume_texture.h"
 
 /* Zero-initialise; owns all. Blocks are the leaves of the octree, 8^3 cells, with an apron of one voxel: every value
  * that interpolation gives inside a block lies in its range. */
@@ -20,9 +21,11 @@ typedef struct ang_skip_grid {
     double build_ms;        /* of the last update: the octree */
 } ang_skip_grid;
 
-/* Brings the grid up to date; does nothing where the same blocks show. False with ANG_LIMIT or ANG_GL. */
-bool ang_skip_grid_update(ang_skip_grid *grid, ang_gl *gl, const ang_volume *volume, const ang_visibility *visibility,
-                          int threads, ang_error *err);
+/* Brings the grid up to date; does nothing where the same blocks show. Where `field` is not NULL the ranges of blocks
+ * come from that texture of the whole volume by compute shader, else from the volume. False with ANG_LIMIT or ANG_GL.
+ */
+bool ang_skip_grid_update(ang_skip_grid *grid, ang_gl *gl, const ang_volume *volume, const ang_volume_texture *field,
+                          const ang_visibility *visibility, int threads, ang_error *err);
 /* The context must be current. */
 void ang_skip_grid_destroy(ang_skip_grid *grid);
 

@@ -89,7 +89,7 @@ static size_t node_count(const ang_octree_level *level) {
     return (size_t)level->dims[0] * (size_t)level->dims[1] * (size_t)level->dims[2];
 }
 
-ang_octree *ang_octree_build(const ang_volume *volume, const int leaf[3], int apron, int threads, ang_error *err) {
+ang_octree *ang_octree_allocate(const ang_volume *volume, const int leaf[3], int apron, ang_error *err) {
     ang_octree *octree = ang_alloc(1, sizeof *octree, "octree", err);
     if (!octree) return NULL;
     octree->apron = apron;
@@ -111,6 +111,18 @@ ang_octree *ang_octree_build(const ang_volume *volume, const int leaf[3], int ap
         if (node_count(level) == 1) break;
         for (int axis = 0; axis < 3; axis++) level[1].dims[axis] = (level->dims[axis] + 1) / 2;
     }
+    return octree;
+}
+
+void ang_octree_finish(ang_octree *octree, int threads) {
+    build_job job = {.octree = octree};
+    for (job.level = 1; job.level < octree->levels; job.level++)
+        ang_parallel_for(node_count(&octree->level[job.level]), 4096, threads, build_parents, &job);
+}
+
+ang_octree *ang_octree_build(const ang_volume *volume, const int leaf[3], int apron, int threads, ang_error *err) {
+    ang_octree *octree = ang_octree_allocate(volume, leaf, apron, err);
+    if (!octree) return NULL;
     int workers = ang_thread_count(threads);
     build_job job = {.volume = volume, .octree = octree};
     job.rows = ang_alloc((size_t)workers * (size_t)volume->dims[0], sizeof *job.rows, "octree", err);
@@ -120,8 +132,7 @@ ang_octree *ang_octree_build(const ang_volume *volume, const int leaf[3], int ap
     }
     const ang_octree_level *leaves = &octree->level[0];
     ang_parallel_for((size_t)leaves->dims[1] * (size_t)leaves->dims[2], 4, workers, build_leaf_rows, &job);
-    for (job.level = 1; job.level < octree->levels; job.level++)
-        ang_parallel_for(node_count(&octree->level[job.level]), 4096, workers, build_parents, &job);
+    ang_octree_finish(octree, workers);
     free(job.rows);
     return octree;
 }

@@ -32,6 +32,10 @@ typedef struct ang_octree {
 /* Builds the tree in parallel; any dims >= 1; `leaf` NULL: ANG_OCTREE_LEAF along each axis, else each >= 1; apron >= 1
  * (2: central differences too). NULL with ANG_LIMIT. Free with ang_octree_free. */
 ang_octree *ang_octree_build(const ang_volume *volume, const int leaf[3], int apron, int threads, ang_error *err);
+/* The same in two halves, for leaves whose ranges come from elsewhere: without any range yet, and the levels above
+ * filled leaves. */
+ang_octree *ang_octree_allocate(const ang_volume *volume, const int leaf[3], int apron, ang_error *err);
+void ang_octree_finish(ang_octree *octree, int threads);
 void ang_octree_free(ang_octree *octree);
 
 /* The cells [first, end) along each axis of node (x,y,z) of `level`. */

@@ -4,6 +4,7 @@
 
 #include "core/render/envelope_hull.h"
 #include "core/render/gradient_texture.h"
+#include "core/render/leaf_ranges.h"
 
 #include <string.h>
 
@@ -99,7 +100,7 @@ static void gradients_made_beforehand_shade_the_same(void **state) {
     for (int iso = 500; iso >= 200; iso -= 300) {
         scene.iso_hu = iso;
         ang_visibility visibility = ang_visibility_make(volume, &scene, NULL);
-        assert_true(ang_skip_grid_update(&grid, gl, volume, &visibility, 1, &err));
+        assert_true(ang_skip_grid_update(&grid, gl, volume, NULL, &visibility, 1, &err));
         assert_true(ang_gradient_texture_update(&gradients, gl, volume, &grid, 2, &err));
         assert_int_equal(gradients.blocks_filled, grid.visible_blocks);
         assert_true(gradients.blocks_filled > filled && gradients.blocks_filled < grid.blocks);
@@ -191,7 +192,7 @@ static void the_hull_follows_what_shows(void **state) {
     for (size_t i = 0; i < sizeof isos / sizeof *isos; i++) {
         scene.iso_hu = isos[i];
         ang_visibility visibility = ang_visibility_make(volume, &scene, NULL);
-        assert_true(ang_skip_grid_update(&grid, gl, volume, &visibility, 1, &err));
+        assert_true(ang_skip_grid_update(&grid, gl, volume, NULL, &visibility, 1, &err));
         assert_true(ang_envelope_hull_update(&hull, gl, &grid, &frame, 100000, &err));
         assert_int_equal(hull.made_now, made[i]);
         assert_int_equal(hull.cells.side, 1);
@@ -208,6 +209,34 @@ static void the_hull_follows_what_shows(void **state) {
     ang_skip_grid_destroy(&grid);
     ang_transfer_free(transfer);
     ang_volume_free(volume);
+}
+
+static double any_value(int x, int y, int z) { return (x * 7919 + y * 104729 + z * 1299709) % 65536 - 1024; }
+
+static void ranges_by_compute_shader_are_the_octrees(void **state) {
+    open_gl(state);
+    static const int shapes[][3] = {{33, 18, 9}, {1, 1, 1}, {2, 40, 1}, {64, 17, 25}};
+    static const double unit[3] = {1, 1, 1};
+    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
+        ang_error err = {0};
+        ang_volume *volume = make_volume(shapes[s][0], shapes[s][1], shapes[s][2], unit, any_value);
+        ang_volume_texture field = {0};
+        assert_true(ang_volume_texture_create(&field, gl, volume, &err));
+        ang_octree *built = ang_octree_build(volume, NULL, 1, 1, &err);
+        ang_octree *computed = ang_octree_allocate(volume, NULL, 1, &err);
+        assert_true(ang_leaf_ranges_compute(gl, &field, computed, &err));
+        ang_octree_finish(computed, 1);
+        assert_int_equal(built->levels, computed->levels);
+        for (int level = 0; level < built->levels; level++) {
+            const int *dims = built->level[level].dims;
+            assert_memory_equal(built->level[level].nodes, computed->level[level].nodes,
+                                (size_t)(dims[0] * dims[1] * dims[2]) * sizeof(ang_minmax));
+        }
+        ang_octree_free(built);
+        ang_octree_free(computed);
+        ang_volume_texture_destroy(&field);
+        ang_volume_free(volume);
+    }
 }
 
 static void nothing_to_see_takes_no_sample(void **state) {
@@ -234,6 +263,7 @@ int main(void) {
         cmocka_unit_test(one_bright_voxel_anywhere),
         cmocka_unit_test(skipping_spares_samples_and_termination_keeps_its_bound),
         cmocka_unit_test(the_hull_follows_what_shows),
+        cmocka_unit_test(ranges_by_compute_shader_are_the_octrees),
         cmocka_unit_test(nothing_to_see_takes_no_sample),
     };
     return run_on_backends(tests);
