@@ -78,6 +78,10 @@ static const option_spec table[] = {
         "gradients", gradients, "auto|lookups|texture", "auto",
         "envelope: where the gradients of Phong shading come from: six lookups a sample, or a texture made for "
         "the visible blocks"),
+    CHOICE_OPTION("skipping", skipping, "both|outside|between", "both",
+                  "envelope: leave out of rays what lies outside its faces, what lies between visible blocks, or both"),
+    INTEGER_OPTION("quads", ANG_VERB_RENDER, quads, 0, 10000000, "0",
+                   "envelope: most faces it may have, coarser cells where there are more; 0: as many as pay"),
     FLAG_OPTION("no-skip", 0, ANG_VERB_RENDER, no_skip, "draw what is invisible too"),
     TEXT_OPTION("bricks", ANG_VERB_RENDER, bricks, "NxNxN", NULL,
                 "slicing: this many bricks along each axis, or as many as cells allow, every visible one drawn; "

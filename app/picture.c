@@ -125,6 +125,10 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     picture->render.gradients = strcmp(options->gradients, "lookups") == 0   ? ANG_GRADIENTS_LOOKUPS
                                 : strcmp(options->gradients, "texture") == 0 ? ANG_GRADIENTS_TEXTURE
                                                                              : ANG_GRADIENTS_AUTO;
+    picture->render.skipping = strcmp(options->skipping, "outside") == 0   ? ANG_SKIP_OUTSIDE
+                               : strcmp(options->skipping, "between") == 0 ? ANG_SKIP_BETWEEN
+                                                                           : ANG_SKIP_BOTH;
+    picture->render.quads = options->quads;
     picture->render.show_bricks = options->show_bricks;
     picture->render.proxy = (ang_proxy)ang_proxy_from_name(options->proxy);
     if (isfinite(options->gpu_memory)) picture->render.gpu_memory = (size_t)(options->gpu_memory * 1e6);

@@ -102,8 +102,14 @@ static bool decide_skipping(ang_renderer *renderer, const ang_scene *scene, cons
         d->why_no_skip = d->why_no_bounds = "no block of the volume is invisible";
         return true;
     }
-    d->skips = true;
+    d->skips = options->skipping != ANG_SKIP_OUTSIDE;
+    if (!d->skips) d->why_no_skip = "--skipping outside";
+    if (options->skipping == ANG_SKIP_BETWEEN) {
+        d->why_no_bounds = "--skipping between";
+        return true;
+    }
     size_t budget = ang_gl_is_software(renderer->pass.gl) ? most_faces_software : most_faces;
+    if (options->quads > 0) budget = (size_t)options->quads;
     if (!ang_envelope_hull_update(&renderer->hull, renderer->pass.gl, &renderer->grid, &d->frame, budget, err))
         return false;
     d->bounds = renderer->hull.cells.side > 0;
@@ -164,8 +170,8 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     const ang_skip_grid *grid = &renderer->grid;
     if (stats)
         *stats = (ang_frame_stats){.counts = stats->counts,
-                                   .bricks_drawn = d.skips ? grid->visible_blocks : 1,
-                                   .bricks_total = d.skips ? grid->blocks : 1,
+                                   .bricks_drawn = d.skips || d.bounds ? grid->visible_blocks : 1,
+                                   .bricks_total = d.skips || d.bounds ? grid->blocks : 1,
                                    .polygons = d.bounds ? renderer->hull.faces : 0,
                                    .passes = d.bounds ? 2 : 1,
                                    .octree_ms = grid->build_ms,
@@ -226,7 +232,8 @@ const ang_method ang_method_envelope = {
     .title = "rays between the faces of an envelope of what shows, skipping inside it",
     .source = "Haferburg, Object order empty space skipping in OpenGL 4",
     .needs_gl = true,
-    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_GRADIENTS,
+    .takes =
+        ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_GRADIENTS | ANG_TAKES_ENVELOPE,
     .create = create,
     .render = render,
     .explain = explain,

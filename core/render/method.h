@@ -13,6 +13,9 @@
 /* Where the gradients of Phong shading come from. */
 typedef enum ang_gradients { ANG_GRADIENTS_AUTO, ANG_GRADIENTS_LOOKUPS, ANG_GRADIENTS_TEXTURE } ang_gradients;
 
+/* What envelope leaves out of rays: what lies outside the faces, what lies between visible blocks, or both. */
+typedef enum ang_skipping { ANG_SKIP_BOTH, ANG_SKIP_OUTSIDE, ANG_SKIP_BETWEEN } ang_skipping;
+
 /* How a picture is made, as far as it does not change what it shows. */
 typedef struct ang_render_options {
     double step_voxels; /* sampling distance as a multiple of the smallest spacing; default 0.5 */
@@ -27,6 +30,8 @@ typedef struct ang_render_options {
     bool show_bricks;        /* slicing: draw the edges of the boxes onto the picture; default false */
     size_t gpu_memory;       /* bytes of textures that the volume may take; default 0: what OpenGL gives */
     ang_gradients gradients; /* envelope: where Phong's come from; default: as it pays */
+    ang_skipping skipping;   /* envelope; default both */
+    int quads;               /* envelope: most faces; default 0: as many as pay */
     int threads;             /* 0: all */
 } ang_render_options;
 extern const ang_render_options ang_render_options_default;
@@ -57,7 +62,8 @@ typedef enum ang_method_takes {
     ANG_TAKES_PASS_STEPS = 32,
     ANG_TAKES_SHOW_BRICKS = 64,
     ANG_TAKES_GPU_MEMORY = 128,
-    ANG_TAKES_GRADIENTS = 256
+    ANG_TAKES_GRADIENTS = 256,
+    ANG_TAKES_ENVELOPE = 512 /* skipping and quads */
 } ang_method_takes;
 
 typedef struct ang_gl ang_gl;             /* core/render/context.h */

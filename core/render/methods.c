@@ -29,6 +29,7 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
     if (options->show_bricks) given |= ANG_TAKES_SHOW_BRICKS;
     if (options->gpu_memory) given |= ANG_TAKES_GPU_MEMORY;
     if (options->gradients) given |= ANG_TAKES_GRADIENTS;
+    if (options->skipping || options->quads) given |= ANG_TAKES_ENVELOPE;
     return given & ~method->takes;
 }
 

@@ -57,6 +57,8 @@ static void every_scene_is_the_single_pass_picture(void **state) {
                     scene.shading = (ang_shading)shading;
                     ang_render_options options = exact;
                     options.step_voxels = steps[step];
+                    options.skipping = (ang_skipping)((mode + step) % 3);
+                    options.quads = step == 1 ? 40 : 0;
                     ang_frame_stats stats = {0};
                     double far = apart(&envelope, &singlepass, &scene, &options, &stats);
                     if (far > 0)
