@@ -46,7 +46,7 @@ static const option_spec table[] = {
                 "preset: see 'presets list'; default: one that suits the input"),
     REAL_OPTION("shift", ANG_VERB_RENDER, shift, "HU", -1e5, 1e5, "0", "HU",
                 "moves the preset's transfer function along the HU axis"),
-    CHOICE_OPTION("method", method, "auto|slicing|envelope|singlepass|reference", "auto", "rendering method"),
+    CHOICE_OPTION("method", method, "auto|slicing|raycast|envelope|singlepass|reference", "auto", "rendering method"),
     CHOICE_OPTION(
         "mode", mode, "dvr|mip|minip|mean|iso|lookups", NULL,
         "what a ray shows; default: the preset's; lookups: how many samples each pixel of that took, as a heat "
@@ -87,8 +87,12 @@ static const option_spec table[] = {
                 "slicing: this many bricks along each axis, or as many as cells allow, every visible one drawn; "
                 "default: octree "
                 "boxes where they pay"),
-    INTEGER_OPTION("passes-steps", ANG_VERB_RENDER, pass_steps, 0, 64, "0",
-                   "slicing: planes that a fragment composites before it blends: 1, 2 or 4; 0: as many as pay"),
+    INTEGER_OPTION(
+        "passes-steps", ANG_VERB_RENDER, pass_steps, 0, 64, "0",
+        "slicing: planes that a fragment composites before it blends, 1, 2 or 4; raycast: samples of a ray in a pass; "
+        "0: as many as pay"),
+    FLAG_OPTION("join-passes", 0, ANG_VERB_RENDER, join_passes,
+                "raycast: look for empty space in the passes that take samples, not between them"),
     FLAG_OPTION("show-bricks", 0, ANG_VERB_RENDER, show_bricks, "slicing: draw the edges of the boxes"),
     REAL_OPTION(
         "gpu-memory", ANG_VERB_RENDER, gpu_memory, "MB", 0.001, 1e9, NULL, "MB",

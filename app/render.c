@@ -66,7 +66,8 @@ static void note_ignored(session *run) {
                  {ANG_TAKES_NO_SKIP, "--no-skip"},         {ANG_TAKES_PROXY, "--proxy"},
                  {ANG_TAKES_BRICKS, "--bricks"},           {ANG_TAKES_PASS_STEPS, "--passes-steps"},
                  {ANG_TAKES_SHOW_BRICKS, "--show-bricks"}, {ANG_TAKES_GPU_MEMORY, "--gpu-memory"},
-                 {ANG_TAKES_GRADIENTS, "--gradients"},     {ANG_TAKES_ENVELOPE, "--skipping or --quads"}};
+                 {ANG_TAKES_GRADIENTS, "--gradients"},     {ANG_TAKES_ENVELOPE, "--skipping or --quads"},
+                 {ANG_TAKES_JOIN_PASSES, "--join-passes"}};
     unsigned ignored = ang_method_ignores(run->method, &run->picture.render);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (ignored & names[i].takes)

@@ -25,8 +25,9 @@ typedef struct ang_render_options {
     bool no_skip;       /* draw what is invisible too; default false */
     ang_proxy proxy;    /* slicing: how polygons are cut; default the vertex program */
     int bricks[3];  /* slicing: bricks along each axis, all visible ones drawn; 0: octree leaves, drawn where it pays */
-    int pass_steps; /* slicing: planes that a fragment composites before it blends: 1, 2 or 4; default 0: as many as pay
-                     */
+    int pass_steps; /* slicing: planes that a fragment composites before it blends, 1, 2 or 4; raycast: samples of a
+                       ray in a pass, 1..64; default 0: as many as pay */
+    bool join_passes;        /* raycast: main passes find out what the next ones may skip; default false */
     bool show_bricks;        /* slicing: draw the edges of the boxes onto the picture; default false */
     size_t gpu_memory;       /* bytes of textures that the volume may take; default 0: what OpenGL gives */
     ang_gradients gradients; /* envelope: where Phong's come from; default: as it pays */
@@ -63,7 +64,8 @@ typedef enum ang_method_takes {
     ANG_TAKES_SHOW_BRICKS = 64,
     ANG_TAKES_GPU_MEMORY = 128,
     ANG_TAKES_GRADIENTS = 256,
-    ANG_TAKES_ENVELOPE = 512 /* skipping and quads */
+    ANG_TAKES_ENVELOPE = 512, /* skipping and quads */
+    ANG_TAKES_JOIN_PASSES = 1024
 } ang_method_takes;
 
 typedef struct ang_gl ang_gl;             /* core/render/context.h */
@@ -108,5 +110,6 @@ extern const ang_method ang_method_reference;
 extern const ang_method ang_method_singlepass;
 extern const ang_method ang_method_slicing;
 extern const ang_method ang_method_envelope;
+extern const ang_method ang_method_raycast;
 
 #endif

@@ -22,6 +22,14 @@ int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume) {
     return 1 + ang_scene_needs_table(scene) + 6 * ang_scene_needs_phong(scene) + ang_scene_needs_weight(scene, volume);
 }
 
+const char *ang_scene_why_no_termination(const ang_scene *scene, const ang_volume *volume,
+                                         const ang_table_texture *table, double threshold) {
+    if (scene->mode != ANG_MODE_DVR) return "every sample counts in this mode";
+    if (!(threshold < 1)) return "rays are not to end early";
+    double depth = table->greatest * 2 * ang_volume_half_diagonal(volume);
+    return -expm1(-depth) < threshold ? "no ray can reach the threshold" : NULL;
+}
+
 /* Whether the picture jumps with the value, so that its last bits matter. */
 static bool needs_exact(const ang_scene *scene) {
     return scene->mode == ANG_MODE_ISO || ang_transfer_jumps(scene->transfer);

@@ -19,6 +19,10 @@ bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume); /
 /* Texture lookups of one sample: the field, the table, six for a gradient, the weight. */
 int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume);
 
+/* Why rays are followed to their end, for the plan; NULL where in mode dvr some may reach `threshold` before. */
+const char *ang_scene_why_no_termination(const ang_scene *scene, const ang_volume *volume,
+                                         const ang_table_texture *table, double threshold);
+
 /* Adds to the plan what the scene itself takes and leaves out, whatever the method. */
 void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume);
 

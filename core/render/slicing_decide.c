@@ -80,19 +80,11 @@ static void decide_skipping(const ang_renderer *renderer, const ang_render_optio
 /* Looks for finished pixels are left out where they cannot pay. */
 static void decide_finishing(const ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
                              ang_slicing *s) {
-    s->why_no_finish = NULL;
-    if (scene->mode != ANG_MODE_DVR) {
-        s->why_no_finish = scene->mode == ANG_MODE_ISO ? "the depth test itself keeps the nearest hit"
-                                                       : "every sample counts in this mode";
-    } else if (!(options->termination < 1)) {
-        s->why_no_finish = "rays are not to end early";
-    } else {
-        double depth = renderer->table.greatest * 2 * ang_volume_half_diagonal(renderer->volume);
-        if (-expm1(-depth) < options->termination)
-            s->why_no_finish = "no ray can reach the threshold";
-        else if (renderer->boxes.samples < finish_least * scene->width * scene->height)
-            s->why_no_finish = "there are too few fragments to spare any";
-    }
+    s->why_no_finish = ang_scene_why_no_termination(scene, renderer->volume, &renderer->table, options->termination);
+    if (scene->mode == ANG_MODE_ISO)
+        s->why_no_finish = "the depth test itself keeps the nearest hit";
+    else if (!s->why_no_finish && renderer->boxes.samples < finish_least * scene->width * scene->height)
+        s->why_no_finish = "there are too few fragments to spare any";
     s->finishes = !s->why_no_finish;
 }
 

@@ -1,0 +1,2 @@
+void count_samples(int samples) {
+}

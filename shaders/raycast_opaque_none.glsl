@@ -1,0 +1,3 @@
+bool is_opaque() {
+    return false;
+}

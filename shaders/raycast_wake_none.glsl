@@ -1,0 +1,2 @@
+void set_wake(Path path, int from) {
+}
