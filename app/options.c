@@ -91,8 +91,8 @@ static const option_spec table[] = {
         "passes-steps", ANG_VERB_RENDER, pass_steps, 0, 64, "0",
         "slicing: planes that a fragment composites before it blends, 1, 2 or 4; raycast: samples of a ray in a pass; "
         "0: as many as pay"),
-    FLAG_OPTION("join-passes", 0, ANG_VERB_RENDER, join_passes,
-                "raycast: look for empty space in the passes that take samples, not between them"),
+    FLAG_OPTION("separate-passes", 0, ANG_VERB_RENDER, separate_passes,
+                "raycast: look for empty space in passes of their own, as in the paper"),
     FLAG_OPTION("show-bricks", 0, ANG_VERB_RENDER, show_bricks, "slicing: draw the edges of the boxes"),
     REAL_OPTION(
         "gpu-memory", ANG_VERB_RENDER, gpu_memory, "MB", 0.001, 1e9, NULL, "MB",

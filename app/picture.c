@@ -121,7 +121,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     picture->render.manual_filter = options->manual_filter;
     picture->render.threads = options->threads;
     picture->render.no_skip = options->no_skip;
-    picture->render.join_passes = options->join_passes;
+    picture->render.separate_passes = options->separate_passes;
     picture->render.pass_steps = options->pass_steps;
     picture->render.gradients = strcmp(options->gradients, "lookups") == 0   ? ANG_GRADIENTS_LOOKUPS
                                 : strcmp(options->gradients, "texture") == 0 ? ANG_GRADIENTS_TEXTURE

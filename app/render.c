@@ -62,12 +62,17 @@ static void note_ignored(session *run) {
     static const struct {
         unsigned takes;
         const char *option;
-    } names[] = {{ANG_TAKES_TERMINATION, "--termination"}, {ANG_TAKES_MANUAL_FILTER, "--manual-filter"},
-                 {ANG_TAKES_NO_SKIP, "--no-skip"},         {ANG_TAKES_PROXY, "--proxy"},
-                 {ANG_TAKES_BRICKS, "--bricks"},           {ANG_TAKES_PASS_STEPS, "--passes-steps"},
-                 {ANG_TAKES_SHOW_BRICKS, "--show-bricks"}, {ANG_TAKES_GPU_MEMORY, "--gpu-memory"},
-                 {ANG_TAKES_GRADIENTS, "--gradients"},     {ANG_TAKES_ENVELOPE, "--skipping or --quads"},
-                 {ANG_TAKES_JOIN_PASSES, "--join-passes"}};
+    } names[] = {{ANG_TAKES_TERMINATION, "--termination"},
+                 {ANG_TAKES_MANUAL_FILTER, "--manual-filter"},
+                 {ANG_TAKES_NO_SKIP, "--no-skip"},
+                 {ANG_TAKES_PROXY, "--proxy"},
+                 {ANG_TAKES_BRICKS, "--bricks"},
+                 {ANG_TAKES_PASS_STEPS, "--passes-steps"},
+                 {ANG_TAKES_SHOW_BRICKS, "--show-bricks"},
+                 {ANG_TAKES_GPU_MEMORY, "--gpu-memory"},
+                 {ANG_TAKES_GRADIENTS, "--gradients"},
+                 {ANG_TAKES_ENVELOPE, "--skipping or --quads"},
+                 {ANG_TAKES_SEPARATE_PASSES, "--separate-passes"}};
     unsigned ignored = ang_method_ignores(run->method, &run->picture.render);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (ignored & names[i].takes)

@@ -27,9 +27,10 @@ typedef struct ang_render_options {
     int bricks[3];  /* slicing: bricks along each axis, all visible ones drawn; 0: octree leaves, drawn where it pays */
     int pass_steps; /* slicing: planes that a fragment composites before it blends, 1, 2 or 4; raycast: samples of a
                        ray in a pass, 1..64; default 0: as many as pay */
-    bool join_passes;        /* raycast: main passes find out what the next ones may skip; default false */
-    bool show_bricks;        /* slicing: draw the edges of the boxes onto the picture; default false */
-    size_t gpu_memory;       /* bytes of textures that the volume may take; default 0: what OpenGL gives */
+    bool separate_passes; /* raycast: passes of their own find empty space, as in the paper; default false: main passes
+                             do */
+    bool show_bricks;     /* slicing: draw the edges of the boxes onto the picture; default false */
+    size_t gpu_memory;    /* bytes of textures that the volume may take; default 0: what OpenGL gives */
     ang_gradients gradients; /* envelope: where Phong's come from; default: as it pays */
     ang_skipping skipping;   /* envelope; default both */
     int quads;               /* envelope: most faces; default 0: as many as pay */
@@ -65,7 +66,7 @@ typedef enum ang_method_takes {
     ANG_TAKES_GPU_MEMORY = 128,
     ANG_TAKES_GRADIENTS = 256,
     ANG_TAKES_ENVELOPE = 512, /* skipping and quads */
-    ANG_TAKES_JOIN_PASSES = 1024
+    ANG_TAKES_SEPARATE_PASSES = 1024
 } ang_method_takes;
 
 typedef struct ang_gl ang_gl;             /* core/render/context.h */

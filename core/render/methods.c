@@ -27,7 +27,7 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
     if (bricks[0] || bricks[1] || bricks[2]) given |= ANG_TAKES_BRICKS;
     if (options->pass_steps) given |= ANG_TAKES_PASS_STEPS;
     if (options->show_bricks) given |= ANG_TAKES_SHOW_BRICKS;
-    if (options->join_passes) given |= ANG_TAKES_JOIN_PASSES;
+    if (options->separate_passes) given |= ANG_TAKES_SEPARATE_PASSES;
     if (options->gpu_memory) given |= ANG_TAKES_GPU_MEMORY;
     if (options->gradients) given |= ANG_TAKES_GRADIENTS;
     if (options->skipping || options->quads) given |= ANG_TAKES_ENVELOPE;

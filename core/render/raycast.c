@@ -210,13 +210,24 @@ static void resolve(const ang_renderer *renderer, GLuint program) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-static bool add_counts(const ang_target *target, ang_frame_stats *stats, ang_error *err) {
-    float *counts = ang_alloc((size_t)target->width * (size_t)target->height, sizeof *counts, "counts", err);
+/* Adds the samples of main passes, or of the refinement of surfaces, to `of_pixels`. */
+static bool add_counts(const ang_target *target, float *of_pixels, ang_frame_stats *stats, ang_error *err) {
+    size_t pixels = (size_t)target->width * (size_t)target->height;
+    float *counts = ang_alloc(pixels, sizeof *counts, "counts", err);
     if (!counts) return false;
-    uint64_t pixels = 0;
-    ang_target_read_counts(target, 0, target->height, counts, &stats->samples, &pixels);
+    uint64_t counted = 0;
+    ang_target_read_counts(target, 0, target->height, counts, &stats->samples, &counted);
+    for (size_t i = 0; of_pixels && i < pixels; i++) of_pixels[i] += counts[i];
     free(counts);
     return true;
+}
+
+static bool read_counts(const ang_renderer *renderer, bool resolved, float *of_pixels, ang_frame_stats *stats,
+                        ang_error *err) {
+    const ang_target *target = &renderer->pass.target;
+    for (size_t i = 0; of_pixels && i < (size_t)target->width * (size_t)target->height; i++) of_pixels[i] = 0;
+    return add_counts(target, of_pixels, stats, err) &&
+           (!resolved || !renderer->resolved.counts || add_counts(&renderer->resolved, of_pixels, stats, err));
 }
 
 static void set_state(const ang_renderer *renderer, const ang_raycast *r) {
@@ -272,15 +283,13 @@ static bool draw_all(ang_renderer *renderer, const ang_raycast *r, ang_image *im
         stats->passes++;
     }
     ang_target_read(shown, 0, r->scene->height, image);
-    if (!counting) return true;
-    return add_counts(&renderer->pass.target, stats, err) &&
-           (!shown->counts || shown == &renderer->pass.target || add_counts(shown, stats, err));
+    return !counting || read_counts(renderer, shown == &renderer->resolved, stats->counts, stats, err);
 }
 
 static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
     ang_raycast r;
-    ang_frame_stats done = {0};
+    ang_frame_stats done = {.counts = stats ? stats->counts : NULL};
     bool ok = ang_raycast_decide(renderer, scene, options, &r, err) &&
               draw_all(renderer, &r, image, stats != NULL, &done, progress, err);
     reset_state();
@@ -299,7 +308,7 @@ const ang_method ang_method_raycast = {
     .source = "Krueger & Westermann, Acceleration Techniques for GPU-based Volume Rendering, IEEE Visualization 2003",
     .needs_gl = true,
     .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_PASS_STEPS |
-             ANG_TAKES_JOIN_PASSES,
+             ANG_TAKES_SEPARATE_PASSES,
     .create = create,
     .render = render,
     .explain = ang_raycast_explain,

@@ -103,7 +103,7 @@ bool ang_raycast_decide(ang_renderer *renderer, const ang_scene *scene, const an
     decide_termination(renderer, r);
     decide_passes(renderer, r);
     decide_cover(r);
-    r->why_not_joined = !r->skips ? "nothing is skipped" : options->join_passes ? NULL : "--join-passes is not given";
+    r->why_not_joined = !r->skips ? "nothing is skipped" : options->separate_passes ? "--separate-passes" : NULL;
     r->joined = !r->why_not_joined;
     return true;
 }

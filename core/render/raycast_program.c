@@ -12,6 +12,10 @@ typedef struct sources {
     ang_shader_source vertex, fragment;
 } sources;
 
+static ang_field_kind field_kind(const ang_raycast *r) {
+    return r->options->manual_filter ? ANG_FIELD_MANUAL : ANG_FIELD_HARDWARE;
+}
+
 static void add_lookups(ang_shader_source *source, const ang_raycast *r) {
     if (r->scene->mode == ANG_MODE_ISO)
         ANG_SHADER_ADD(source, raycast_lookups_iso);
@@ -47,11 +51,11 @@ static void add_counting(ang_shader_source *source, bool counting) {
 static void add_value(ang_shader_source *source, const ang_renderer *renderer, const ang_raycast *r) {
     const ang_scene *scene = r->scene;
     const ang_volume *volume = renderer->pass.volume;
-    bool manual = r->options->manual_filter;
-    ang_parts_field(source, manual);
+    ang_field_kind kind = field_kind(r);
+    ang_parts_field(source, kind);
     switch (scene->mode) {
     case ANG_MODE_DVR:
-        ang_parts_classification(source, scene);
+        ang_parts_classification(source, scene, kind);
         ang_parts_opacity(source, &renderer->pass.table, 1.01 * ang_ray_step(volume, r->options));
         if (ang_scene_needs_phong(scene)) {
             ANG_SHADER_ADD(source, raycast_along);
@@ -67,7 +71,7 @@ static void add_value(ang_shader_source *source, const ang_renderer *renderer, c
         ANG_SHADER_ADD(source, raycast_minip);
         break;
     case ANG_MODE_MEAN:
-        ang_parts_weight(source, scene, volume, manual);
+        ang_parts_weight(source, scene, volume, kind);
         ANG_SHADER_ADD(source, raycast_mean);
         break;
     case ANG_MODE_ISO:
@@ -124,8 +128,8 @@ static void compose_resolve(ang_shader_source *source, const ang_raycast *r, boo
     ANG_SHADER_ADD(source, ray);
     if (scene->mode == ANG_MODE_ISO) {
         add_path(source, r, true);
-        ang_parts_field(source, r->options->manual_filter);
-        ang_parts_classification(source, scene);
+        ang_parts_field(source, field_kind(r));
+        ang_parts_classification(source, scene, field_kind(r));
         ANG_SHADER_ADD(source, raycast_along);
         add_counting(source, counting);
         ANG_SHADER_ADD(source, raycast_shade);

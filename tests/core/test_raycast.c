@@ -116,7 +116,8 @@ static void check_same(const ang_image *a, ang_image *b, bool surface, const cha
     ang_image_clear(b);
 }
 
-/* In all modes, projections and shadings, whatever a pass takes; skipping changes no bit, joined or not. */
+/* In all modes, projections and shadings, whatever a pass takes; skipping changes no bit, whichever passes find what to
+ * skip. */
 static void the_single_pass_is_repeated(void **state) {
     open_gl(state);
     static const int steps[] = {1, 3, 8, 64, 0};
@@ -136,7 +137,7 @@ static void the_single_pass_is_repeated(void **state) {
                              steps[m]);
                     ang_render_options options = exact;
                     options.manual_filter = which == 1;
-                    ang_frame_stats once = {0}, whole = {0}, skipped = {0}, joined = {0};
+                    ang_frame_stats once = {0}, whole = {0}, skipped = {0}, separate = {0};
                     ang_image truth = draw_with(&ang_method_singlepass, single, &scene, &options, &once);
                     options.no_skip = true;
                     options.pass_steps = steps[m];
@@ -144,11 +145,11 @@ static void the_single_pass_is_repeated(void **state) {
                     options.no_skip = false;
                     double change = changed_by(renderer, &scene, &image, &options, &skipped);
                     if (change != 0) fail_msg("%s, skipping: %g", what, change);
-                    options.join_passes = true;
-                    change = changed_by(renderer, &scene, &image, &options, &joined);
-                    if (change != 0) fail_msg("%s, joined: %g", what, change);
+                    options.separate_passes = true;
+                    change = changed_by(renderer, &scene, &image, &options, &separate);
+                    if (change != 0) fail_msg("%s, separate: %g", what, change);
                     assert_int_equal(whole.fragments, once.fragments);
-                    assert_int_equal(skipped.samples, joined.samples);
+                    assert_int_equal(skipped.samples, separate.samples);
                     if (mode != ANG_MODE_ISO) assert_int_equal(whole.samples, once.samples);
                     if (skipped.bricks_drawn < skipped.bricks_total && steps[m] > 0 && steps[m] <= 8)
                         assert_true(skipped.samples < whole.samples);
@@ -180,7 +181,7 @@ static void homogeneous_media_at_any_step_and_extinction(void **state) {
                 ang_render_options options = exact;
                 options.step_voxels = which % 2 ? 0.5 : 7;
                 options.pass_steps = 5;
-                options.join_passes = which % 2;
+                options.separate_passes = which % 2;
                 ang_image image = draw(renderer, &scene, &options, NULL);
                 double tolerance = 4e-6 + fmin(4e-5 * kappa, 4e-3);
                 for (int p = 0; p < width * height; p++) {
@@ -202,10 +203,10 @@ static void nothing_to_see_takes_no_sample(void **state) {
     ang_transfer *transfer = constant_transfer(0, 1, 1, 1);
     ang_renderer *renderer = open_renderer(&ang_method_raycast, gl, volume);
     for (int which = 0; which < SCENES; which++)
-        for (int joined = 0; joined < 2; joined++) {
+        for (int separate = 0; separate < 2; separate++) {
             ang_scene scene = make_scene(which, volume, transfer);
             ang_render_options options = exact;
-            options.join_passes = joined;
+            options.separate_passes = separate;
             ang_frame_stats stats = {0};
             ang_image image = draw(renderer, &scene, &options, &stats);
             for (int i = 0; i < 4 * width * height; i++) assert_true(image.rgba[i] == 0);
@@ -309,7 +310,7 @@ static void balls_have_their_silhouette(void **state) {
         scene.iso_hu = 600; /* 10 voxels from the middle */
         ang_render_options options = exact;
         options.termination = 0.999;
-        options.join_passes = which;
+        options.separate_passes = which;
         ang_image image = draw(renderer, &scene, &options, NULL);
         assert_true(ang_ray_frame_make(volume, &scene, &frame, NULL));
         int hits = 0;
