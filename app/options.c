@@ -98,6 +98,8 @@ static const option_spec table[] = {
         "gpu-memory", ANG_VERB_RENDER, gpu_memory, "MB", 0.001, 1e9, NULL, "MB",
         "most memory that the volume's textures take; a larger volume is drawn in bricks by slicing (it stays whole in "
         "main memory)"),
+    FLAG_OPTION("count-shown", 0, ANG_VERB_RENDER, count_shown,
+                "count only samples that show, in mode dvr without shading: the fewest that any method could take"),
     FLAG_OPTION("explain", 0, ANG_VERB_RENDER, explain, "say what the picture takes and what is left out, and why"),
     FLAG_OPTION("manual-filter", 0, ANG_VERB_RENDER, manual_filter,
                 "interpolate in the shader instead of the texture unit, to verify filtering"),

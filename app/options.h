@@ -25,8 +25,8 @@ typedef struct ang_options {
     double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory,
         threshold; /* NaN where not given and without default */
     int frames, repeat, threads, seed, pass_steps, quads;
-    bool no_termination, no_skip, separate_passes, show_bricks, explain, manual_filter, strict, annotate, keep_phi,
-        quiet, verbose, help, json_flag;
+    bool no_termination, no_skip, count_shown, separate_passes, show_bricks, explain, manual_filter, strict, annotate,
+        keep_phi, quiet, verbose, help, json_flag;
     const char **arguments; /* what is not an option, NULL at the end */
     int argument_count;
 } ang_options;

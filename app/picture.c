@@ -129,6 +129,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     picture->render.skipping = strcmp(options->skipping, "outside") == 0   ? ANG_SKIP_OUTSIDE
                                : strcmp(options->skipping, "between") == 0 ? ANG_SKIP_BETWEEN
                                                                            : ANG_SKIP_BOTH;
+    picture->render.count_shown = options->count_shown;
     picture->render.quads = options->quads;
     picture->render.show_bricks = options->show_bricks;
     picture->render.proxy = (ang_proxy)ang_proxy_from_name(options->proxy);

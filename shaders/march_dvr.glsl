@@ -24,7 +24,7 @@ vec4 march(Ray ray, out float samples) {
             float added = counts ? (1.0 - opacity) * opacity_of(medium.a * piece) : 0.0;
             colour += added * shade(medium.rgb, place, ray.direction_mm, added > 0.0);
             opacity += added;
-            taken += int(counts);
+            taken += int(counts && (count_all || medium.a > 0.0));
             i++;
         }
     }

@@ -34,6 +34,8 @@ typedef struct ang_render_options {
     ang_gradients gradients; /* envelope: where Phong's come from; default: as it pays */
     ang_skipping skipping;   /* envelope; default both */
     int quads;               /* envelope: most faces; default 0: as many as pay */
+    bool count_shown;        /* singlepass, envelope in mode dvr without shading by lookups: count only samples that
+                                show, the fewest that any method could take; default false */
     int threads;             /* 0: all */
 } ang_render_options;
 extern const ang_render_options ang_render_options_default;

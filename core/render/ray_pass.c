@@ -62,7 +62,8 @@ static ang_shader_source compose(const ang_ray_pass *pass, const ang_scene *scen
     ang_parts_field(&source, kind);
     ang_parts_classification(&source, scene, kind);
     limits->parts(limits->context, &source);
-    ang_parts_march(&source, scene, volume, kind, &pass->table, 1.01 * ang_ray_step(volume, options), limits->skips);
+    ang_parts_march(&source, scene, volume, kind, &pass->table, 1.01 * ang_ray_step(volume, options), limits->skips,
+                    options->count_shown);
     if (counting)
         ANG_SHADER_ADD(&source, picture_counted);
     else

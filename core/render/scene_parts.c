@@ -106,8 +106,16 @@ void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const a
         ANG_SHADER_ADD(source, weight_hardware);
 }
 
+static void add_march_dvr(ang_shader_source *source, bool count_shown) {
+    if (count_shown)
+        ANG_SHADER_ADD(source, count_shown);
+    else
+        ANG_SHADER_ADD(source, count_all);
+    ANG_SHADER_ADD(source, march_dvr);
+}
+
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
-                     const ang_table_texture *table, double length, bool skips) {
+                     const ang_table_texture *table, double length, bool skips, bool count_shown) {
     ANG_SHADER_ADD(source, march);
     if (kind == ANG_FIELD_GRADIENTS)
         ANG_SHADER_ADD(source, march_single);
@@ -119,7 +127,7 @@ void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const an
         if (ang_scene_needs_phong(scene) && !skips)
             ANG_SHADER_ADD(source, march_dvr_seek);
         else
-            ANG_SHADER_ADD(source, march_dvr);
+            add_march_dvr(source, count_shown);
         break;
     case ANG_MODE_MIP:
         ANG_SHADER_ADD(source, march_mip);

@@ -43,9 +43,10 @@ void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table
 
 /* march, the loop along a ray, of the scene's mode, with the parts that it needs beside field and classification; the
  * parts that bound it and that skip (bounds_*.glsl, skip_*.glsl) must be there. `length`: mm that a sample stands for,
- * at most; `skips`: whether the part that skips does. */
+ * at most; `skips`: whether the part that skips does; `count_shown`: as
+ * in ang_render_options. */
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
-                     const ang_table_texture *table, double length, bool skips);
+                     const ang_table_texture *table, double length, bool skips, bool count_shown);
 
 /* clip_x, clip_y and clip_w of what projects places of index space. */
 void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space);

@@ -1,0 +1,2 @@
+// Every sample counts.
+const bool count_all = true;
