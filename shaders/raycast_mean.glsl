@@ -6,9 +6,9 @@ uniform vec2 mean_unit; // powers of two, of which a ray's sums are few enough f
 vec4 pass_value(Path path, int first) {
     vec2 sum = vec2(0.0);
     precise vec2 lost = vec2(0.0);
-    for (int k = 0; k < pass_steps; k++) {
-        int i = first + k;
-        float piece = i < path.count ? lattice_length(i, path.count, path.reach) : 0.0;
+    int end = min(first + pass_steps, path.count);
+    for (int i = first; i < end; i++) {
+        float piece = lattice_length(i, path.count, path.reach);
         vec3 place = path.start + lattice_place(i, piece) * path.direction;
         precise vec2 term = piece * vec2(field_at(place) - mean_base, weight_at(place)) - lost;
         precise vec2 next = sum + term;

@@ -54,7 +54,7 @@ static unsigned make_texture(GLenum format, int width, int height) {
 }
 
 /* The textures of the rays, as large as the accumulated target. */
-static void resize_paths(ang_raycast_paths *paths, const ang_target *target, bool joined) {
+static bool resize_paths(ang_raycast_paths *paths, const ang_target *target, bool joined) {
     if (paths->width != target->width || paths->height != target->height) destroy_paths(paths);
     paths->width = target->width;
     paths->height = target->height;
@@ -71,6 +71,7 @@ static void resize_paths(ang_raycast_paths *paths, const ang_target *target, boo
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target->depth);
     const GLenum outputs[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, joined ? GL_COLOR_ATTACHMENT2 : GL_NONE};
     glDrawBuffers(3, outputs);
+    return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
 /* Main passes write what they find, count, and say when a ray is to go on. */
@@ -92,8 +93,11 @@ static bool resize(ang_renderer *renderer, const ang_raycast *r, bool counting, 
         (ang_raycast_has(r, ANG_RAYCAST_RESOLVE) &&
          !ang_target_resize(&renderer->resolved, gl, width, height, surface ? counts : 0, err)))
         return false;
-    resize_paths(&renderer->paths, &renderer->pass.target, r->joined);
-    return ang_gl_check(gl, err);
+    bool complete = resize_paths(&renderer->paths, &renderer->pass.target, r->joined);
+    if (!ang_gl_check(gl, err)) return false;
+    return complete || ang_fail(err, ANG_LIMIT,
+                                "rays of %dx%d pixels in floats: this OpenGL (%s) refuses them; give a smaller --size",
+                                width, height, ang_gl_renderer(gl));
 }
 
 /* Every pass has one depth. That of finished pixels is 0; that of main passes falls from one to the next, so that
@@ -188,7 +192,7 @@ static bool cast(const ang_renderer *renderer, const ang_raycast *r, const GLuin
         ang_uniform_int(programs[ANG_RAYCAST_MAIN], "pass_first", k * r->steps);
         draw(r, programs[ANG_RAYCAST_MAIN], depth_of(r, k));
         ++*passes;
-        if ((k + 1) % piece != 0) continue;
+        if ((k + 1) % piece != 0 && k + 1 < r->passes) continue;
         if (!tests) glFinish();
         for (; asked > 0; asked--) {
             GLuint found = 0;

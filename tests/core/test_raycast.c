@@ -240,7 +240,11 @@ static void termination_spares_samples_within_its_bound(void **state) {
     static const double thresholds[] = {0.5, 0.95, 0.999};
     for (size_t i = 0; i < sizeof thresholds / sizeof *thresholds; i++) {
         options.termination = thresholds[i];
-        double change = changed_by(renderer, &scene, &image, &options, &some);
+        float counts[width * height];
+        some.counts = counts;
+        double change = changed_by(renderer, &scene, &image, &options, &some), sum = 0;
+        for (int p = 0; p < width * height; p++) sum += (double)counts[p];
+        assert_true(sum == (double)some.samples);
         assert_true((double)some.samples < 0.5 * (double)all.samples);
         assert_true(change <= 1 - thresholds[i] + 1e-6);
     }
