@@ -15,8 +15,9 @@ vec3 skip_rate(vec3 direction) {
 // thousandth of a step before a visible block counts as inside it.
 int skip_steps(vec3 place, vec3 rate) {
     vec3 at = place * skip_scale + skip_offset;
-    vec3 block = clamp(floor(at), vec3(0.0), skip_last);
-    float clear = float(texelFetch(skip_grid, ivec3(block), 0).r);
-    vec3 exits = (block + mix(vec3(1.0 - clear), vec3(clear), greaterThan(rate, vec3(0.0))) - at) * rate;
+    vec3 block = floor(at);
+    float clear = float(texelFetch(skip_grid, ivec3(clamp(block, vec3(0.0), skip_last)), 0).r);
+    // To the faces of the cube of invisible blocks: the far one along each axis.
+    vec3 exits = (block - at + vec3(lessThan(rate, vec3(0.0)))) * rate + clear * abs(rate);
     return clear > 0.0 ? max(1, int(ceil(min(min(exits.x, exits.y), exits.z) - 1e-3))) : 0;
 }

@@ -185,8 +185,10 @@ static void explain_skipping(const ang_renderer *renderer, const decision *d, an
     if (!d->skips) {
         ang_plan_leave_out(plan, "skipping of invisible blocks", "%s", d->why_no_skip);
     } else {
-        ang_plan_use(plan, "skipping by the distance to the next visible block: %zu of %zu blocks of 8x8x8 cells show",
-                     grid->visible_blocks, grid->blocks);
+        ang_plan_use(plan,
+                     "skipping by the distance to the next visible block: %zu of %zu blocks of %d cells a side "
+                     "show",
+                     grid->visible_blocks, grid->blocks, ANG_SKIP_BLOCK);
         if (ang_gl_is_software(renderer->pass.gl))
             ang_plan_leave_out(plan, "ranges of blocks by compute shader", "without a GPU the processor is faster");
         else
@@ -200,7 +202,7 @@ static void explain_skipping(const ang_renderer *renderer, const decision *d, an
         ang_plan_leave_out(plan, "envelope of what shows", "%s", d->why_no_bounds);
         return;
     }
-    int side = 8 * renderer->hull.cells.side;
+    int side = ANG_SKIP_BLOCK * renderer->hull.cells.side;
     ang_plan_use(plan, "envelope of what shows: %zu faces of cells of %dx%dx%d", renderer->hull.faces, side, side,
                  side);
     if (!d->inside)
