@@ -17,6 +17,9 @@ enum { UNIT_GRID = ANG_UNIT_FREE, UNIT_RANGE, UNIT_GRADIENTS };
  * as Haferburg allows for the 64^3 cells of a 512^3 volume. */
 static const size_t most_faces_software = 600, most_faces = 65536;
 
+/* Of a texture of gradients that nobody has asked for. */
+static const size_t most_gradient_bytes = (size_t)2 << 30;
+
 struct ang_renderer {
     ang_ray_pass pass;
     ang_skip_grid grid;
@@ -60,9 +63,6 @@ static bool may_start_inside(const ang_ray_frame *frame) {
     return false;
 }
 
-/* Bytes of the texture of gradients: all of it, though software GL touches visible blocks alone. */
-static size_t gradient_bytes(const ang_volume *volume) { return 8 * ang_volume_count(volume); }
-
 /* A texture of gradients pays where samples are shaded and many blocks need none. */
 static bool decide_gradients(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
                              decision *d, ang_error *err) {
@@ -76,8 +76,13 @@ static bool decide_gradients(ang_renderer *renderer, const ang_scene *scene, con
         d->why_no_gradients = "--gradients lookups";
     else if (!d->skips)
         d->why_no_gradients = "it is made for visible blocks, and none is told from the others";
-    else if (options->gpu_memory && gradient_bytes(volume) + 2 * ang_volume_count(volume) > options->gpu_memory)
+    else if (options->gpu_memory &&
+             ang_gradient_texture_bytes(volume) + 2 * ang_volume_count(volume) > options->gpu_memory)
         d->why_no_gradients = "--gpu-memory does not hold it";
+    else if (options->gradients == ANG_GRADIENTS_AUTO && ang_gradient_texture_bytes(volume) > most_gradient_bytes)
+        d->why_no_gradients = "it would take more than 2 GB; --gradients texture makes it all the same";
+    else if (!ang_gradient_texture_fits(volume))
+        d->why_no_gradients = "it is larger than one texture of this OpenGL may be";
     d->gradients = !d->why_no_gradients;
     renderer->gradients.build_ms = 0;
     return !d->gradients || ang_gradient_texture_update(&renderer->gradients, renderer->pass.gl, volume,

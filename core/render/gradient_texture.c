@@ -58,6 +58,16 @@ static void upload(const run *runs, size_t count, uint16_t (*texels)[4]) {
     }
 }
 
+bool ang_gradient_texture_fits(const ang_volume *volume) {
+    GLint width = 0;
+    glTexImage3D(GL_PROXY_TEXTURE_3D, 0, GL_RGBA16, volume->dims[0], volume->dims[1], volume->dims[2], 0, GL_RGBA,
+                 GL_UNSIGNED_SHORT, NULL);
+    glGetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &width);
+    return width == volume->dims[0];
+}
+
+size_t ang_gradient_texture_bytes(const ang_volume *volume) { return 4 * sizeof(uint16_t) * ang_volume_count(volume); }
+
 static bool make(ang_gradient_texture *gradients, ang_gl *gl, const ang_volume *volume, const ang_skip_grid *grid,
                  ang_error *err) {
     gradients->filled = ang_alloc(grid->blocks, 1, "list of blocks with gradients", err);

@@ -17,6 +17,11 @@ typedef struct ang_gradient_texture {
     double build_ms; /* of the last update */
 } ang_gradient_texture;
 
+/* Whether this GL takes one for the volume, and the bytes of all of it, though software GL touches filled blocks alone.
+ * The context must be current. */
+bool ang_gradient_texture_fits(const ang_volume *volume);
+size_t ang_gradient_texture_bytes(const ang_volume *volume);
+
 /* Fills the visible blocks of the grid that are not there yet. False with ANG_LIMIT, ANG_GL. */
 bool ang_gradient_texture_update(ang_gradient_texture *gradients, ang_gl *gl, const ang_volume *volume,
                                  const ang_skip_grid *grid, int threads, ang_error *err);
