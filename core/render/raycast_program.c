@@ -214,8 +214,9 @@ void ang_raycast_bind(const ang_renderer *renderer, const ang_raycast *r) {
 
 void ang_raycast_explain_pass(const ang_renderer *renderer, const ang_raycast *r, ang_raycast_pass pass,
                               ang_plan *plan) {
-    static const char *const names[] = {"entry and direction of rays", "a stretch of every ray", "finished pixels",
-                                        "pixels whose next stretch is empty", "values to grey"};
+    static const char *const names[ANG_RAYCAST_PASSES + 1] = {
+        "entry and direction of rays",        "a stretch of every ray", "finished pixels",
+        "pixels whose next stretch is empty", "values to grey",         ""};
     bool surface = r->scene->mode == ANG_MODE_ISO;
     sources made = compose(renderer, r, pass, false);
     int lookups = 0;
