@@ -130,10 +130,12 @@ void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const an
             add_march_dvr(source, count_shown);
         break;
     case ANG_MODE_MIP:
-        ANG_SHADER_ADD(source, march_mip);
+        ANG_SHADER_ADD(source, extreme_mip);
+        ANG_SHADER_ADD(source, march_extreme);
         break;
     case ANG_MODE_MINIP:
-        ANG_SHADER_ADD(source, march_minip);
+        ANG_SHADER_ADD(source, extreme_minip);
+        ANG_SHADER_ADD(source, march_extreme);
         break;
     case ANG_MODE_MEAN:
         ang_parts_weight(source, scene, volume, kind);

@@ -41,10 +41,10 @@ static inline ang_volume *sheared_volume(double (*value)(int, int, int)) {
     return volume;
 }
 
-enum { SCENES = 4 };
-/* Perspective, parallel along an axis, clipped, and from inside. */
+enum { SCENES = 5 };
+/* Perspective, parallel along an axis, clipped, from inside, and from inside looking out beside a face. */
 static inline ang_scene make_scene(int which, const ang_volume *volume, const ang_transfer *transfer) {
-    static const char *const views[SCENES] = {"33,21,10", "left", "-140,-35", "20,5"};
+    static const char *const views[SCENES] = {"33,21,10", "left", "-140,-35", "20,5", "100,40"};
     ang_scene scene = ang_scene_default(volume);
     ang_view view = ang_view_default;
     assert_true(ang_view_parse(views[which], &view, NULL));
@@ -54,6 +54,10 @@ static inline ang_scene make_scene(int which, const ang_volume *volume, const an
     if (which == 3) {
         scene.camera.eye = ang_vec3_along(ang_volume_centre(volume), scene.camera.forward, 1.5);
         scene.camera.fov_deg = 80;
+    }
+    if (which == 4) {
+        scene.camera.eye = ang_vec3_along(ang_volume_centre(volume), scene.camera.forward, -21);
+        scene.camera.fov_deg = 120;
     }
     scene.width = width;
     scene.height = height;

@@ -1,18 +1,13 @@
 /* Ray casting in passes against the single pass, whose samples it takes, and against closed forms; on every backend
  * here. That it shows the reference's picture is test_methods' business. */
 #include "tests/core/backends.h"
+#include "tests/core/scenes.h"
 
 #include "core/render/block_ranges.h"
 #include "core/render/method.h"
 
 #include <string.h>
 
-enum { width = 61, height = 48 };
-
-static double flat_value(int x, int y, int z) {
-    (void)x, (void)y, (void)z;
-    return 100;
-}
 static double ramp_y(int x, int y, int z) {
     (void)x, (void)z;
     return 10 * y;
@@ -21,18 +16,8 @@ static double distance_value(int x, int y, int z) {
     return fmax(900 - 30 * sqrt((x - 21) * (x - 21) + (y - 19) * (y - 19) + (z - 14) * (z - 14)), 0);
 }
 
-/* Vessels, as it were: a third of the volume is invisible at 150 HU. */
-static double sparse_value(int x, int y, int z) {
-    double wave = sin(0.35 * x + 0.5 * sin(0.2 * z)) * cos(0.31 * y) * sin(0.23 * z + 0.4);
-    return x > 20 && wave > 0.2 ? 100 + 500 * wave : -50 + 3 * ((x + 2 * y + 3 * z) % 7);
-}
-
-static ang_transfer *vessels(void) {
-    static const ang_transfer_point points[] = {{.hu = 150, .colour = {0.6, 0.1, 0.05}, .opacity = 0},
-                                                {.hu = 300, .colour = {0.9, 0.4, 0.2}, .opacity = 0.15},
-                                                {.hu = 600, .colour = {1, 0.95, 0.9}, .opacity = 0.6}};
-    return ang_transfer_create(points, 3, 1, false, NULL, NULL);
-}
+/* Empty on one side, so that there is something to skip. */
+static double half_value(int x, int y, int z) { return x > 20 ? sparse_value(x, y, z) : -50; }
 
 static const ang_render_options exact = {.step_voxels = 0.5, .termination = 1};
 
@@ -62,45 +47,7 @@ static ang_image draw(ang_renderer *renderer, const ang_scene *scene, const ang_
 static double changed_by(ang_renderer *renderer, const ang_scene *scene, const ang_image *image,
                          const ang_render_options *options, ang_frame_stats *stats) {
     ang_image other = draw(renderer, scene, options, stats);
-    double greatest = 0;
-    for (int i = 0; i < 4 * image->width * image->height; i++)
-        greatest = fmax(greatest, fabs((double)image->rgba[i] - other.rgba[i]));
-    ang_image_clear(&other);
-    return greatest;
-}
-
-static ang_volume *sheared_volume(double (*value)(int, int, int)) {
-    static const double spacing[3] = {0.8, 0.9, 1.4};
-    ang_volume *volume = make_volume(44, 39, 30, spacing, value);
-    volume->affine.m[1][2] = 0.5;
-    return volume;
-}
-
-enum { SCENES = 5 };
-/* Perspective, parallel along an axis, clipped, from inside, and from inside looking out beside a face. */
-static ang_scene make_scene(int which, const ang_volume *volume, const ang_transfer *transfer) {
-    static const char *const views[SCENES] = {"33,21,10", "left", "-140,-35", "20,5", "100,40"};
-    ang_scene scene = ang_scene_default(volume);
-    ang_view view = ang_view_default;
-    assert_true(ang_view_parse(views[which], &view, NULL));
-    if (which == 1) view.projection = ANG_PARALLEL;
-    scene.camera = ang_camera_for(volume, &view);
-    if (which == 2) assert_true(ang_scene_clip_parse("20%,90%,10%,80%,30%,75%", volume, &scene, NULL));
-    if (which == 3) {
-        scene.camera.eye = ang_vec3_along(ang_volume_centre(volume), scene.camera.forward, 1.5);
-        scene.camera.fov_deg = 80;
-    }
-    if (which == 4) {
-        scene.camera.eye = ang_vec3_along(ang_volume_centre(volume), scene.camera.forward, -21);
-        scene.camera.fov_deg = 120;
-    }
-    scene.width = width;
-    scene.height = height;
-    scene.transfer = transfer;
-    scene.iso_hu = 220;
-    scene.window_centre = 300;
-    scene.window_width = 500;
-    return scene;
+    return difference(image, &other);
 }
 
 /* Single pixels of an outline where a ray just touches a surface may differ: the shaders' samples do by rounding. */
@@ -121,7 +68,7 @@ static void check_same(const ang_image *a, ang_image *b, bool surface, const cha
 static void the_single_pass_is_repeated(void **state) {
     open_gl(state);
     static const int steps[] = {1, 3, 8, 64, 0};
-    ang_volume *volume = sheared_volume(sparse_value);
+    ang_volume *volume = sheared_volume(half_value);
     ang_transfer *transfer = vessels();
     ang_renderer *single = open_renderer(&ang_method_singlepass, gl, volume);
     ang_renderer *renderer = open_renderer(&ang_method_raycast, gl, volume);
@@ -199,7 +146,7 @@ static void homogeneous_media_at_any_step_and_extinction(void **state) {
 
 static void nothing_to_see_takes_no_sample(void **state) {
     open_gl(state);
-    ang_volume *volume = sheared_volume(sparse_value);
+    ang_volume *volume = sheared_volume(half_value);
     ang_transfer *transfer = constant_transfer(0, 1, 1, 1);
     ang_renderer *renderer = open_renderer(&ang_method_raycast, gl, volume);
     for (int which = 0; which < SCENES; which++)
@@ -338,7 +285,7 @@ static void balls_have_their_silhouette(void **state) {
 static void the_table_of_ranges_is_conservative(void **state) {
     (void)state;
     uint64_t seed = 88172645463325252u;
-    ang_volume *volume = sheared_volume(sparse_value);
+    ang_volume *volume = sheared_volume(half_value);
     ang_transfer *transfer = vessels();
     uint8_t *table = malloc((size_t)ANG_BLOCK_LEVELS * ANG_BLOCK_LEVELS);
     assert_non_null(table);
@@ -381,7 +328,7 @@ static bool stop_at_once(void *context, const char *what, double fraction) {
 
 static void refusals_and_interruption(void **state) {
     open_gl(state);
-    ang_volume *volume = sheared_volume(sparse_value);
+    ang_volume *volume = sheared_volume(half_value);
     ang_transfer *transfer = vessels();
     ang_renderer *renderer = open_renderer(&ang_method_raycast, gl, volume);
     ang_scene scene = make_scene(0, volume, NULL);

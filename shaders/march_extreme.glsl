@@ -1,7 +1,7 @@
-// The maximum along the ray.
+// The extreme value along the ray.
 vec4 march(Ray ray, out float samples) {
     March m = march_along(ray);
-    float found = 0.0;
+    float found = extreme_nothing;
     int taken = 0;
     int i = m.begin;
     while (i < m.end) {
@@ -14,7 +14,7 @@ vec4 march(Ray ray, out float samples) {
         }
         for (int k = 0; k < march_group; k++) {
             place = march_place(m, i, piece);
-            found = i < m.count ? max(found, field_at(place)) : found;
+            found = i < m.count ? extreme_of(found, field_at(place)) : found;
             taken += int(i < m.count);
             i++;
         }
