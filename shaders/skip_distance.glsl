@@ -12,7 +12,7 @@ vec3 skip_rate(vec3 direction) {
 }
 
 // Steps from the sample at `place` to the first that may show something; 0 where this one may. A sample that lies a
-// thousandth of a step before a visible block counts as inside it.
+// thousandth of a step before another block is asked again.
 int skip_steps(vec3 place, vec3 rate) {
     vec3 at = place * skip_scale + skip_offset;
     vec3 block = floor(at);

@@ -71,7 +71,7 @@ static void count_shown(ang_block_ranges *ranges) {
 
 bool ang_block_ranges_update(ang_block_ranges *ranges, ang_gl *gl, const ang_volume *volume,
                              const ang_visibility *visibility, int threads, ang_error *err) {
-    bool fresh = !ranges->shows;
+    bool fresh = !ranges->shows, empty = ranges->tables_uploaded == 0;
     ranges->build_ms = 0;
     if (fresh && !make(ranges, volume, threads, err)) {
         ang_block_ranges_destroy(ranges);
@@ -81,7 +81,7 @@ bool ang_block_ranges_update(ang_block_ranges *ranges, ang_gl *gl, const ang_vol
     uint8_t *table = ang_alloc(TABLE_BYTES, 1, "table of ranges that show", err);
     if (!table) return false;
     ang_block_table(visibility, ranges->lowest, ranges->highest, table);
-    if (!fresh && memcmp(table, ranges->table, TABLE_BYTES) == 0) {
+    if (!empty && memcmp(table, ranges->table, TABLE_BYTES) == 0) {
         free(table);
         return true;
     }

@@ -75,7 +75,7 @@ static bool decide_gradients(ang_renderer *renderer, const ang_scene *scene, con
     else if (options->gradients == ANG_GRADIENTS_LOOKUPS)
         d->why_no_gradients = "--gradients lookups";
     else if (!d->skips)
-        d->why_no_gradients = "it is made for visible blocks, and none is told from the others";
+        d->why_no_gradients = "rays do not skip, and it is made for visible blocks alone";
     else if (options->gpu_memory &&
              ang_gradient_texture_bytes(volume) + 2 * ang_volume_count(volume) > options->gpu_memory)
         d->why_no_gradients = "--gpu-memory does not hold it";
@@ -111,6 +111,12 @@ static bool decide_skipping(ang_renderer *renderer, const ang_scene *scene, cons
     if (!d->skips) d->why_no_skip = "--skipping outside";
     if (options->skipping == ANG_SKIP_BETWEEN) {
         d->why_no_bounds = "--skipping between";
+        return true;
+    }
+    ang_clip_space space = ang_clip_space_make(&d->frame, scene->width, scene->height);
+    if (!ang_clip_space_ahead(&space, d->frame.lower, d->frame.upper)) {
+        d->why_no_bounds =
+            "the eye is in or beside the volume, where faces would be clipped; the clip box bounds the rays";
         return true;
     }
     size_t budget = ang_gl_is_software(renderer->pass.gl) ? most_faces_software : most_faces;
@@ -239,8 +245,8 @@ const ang_method ang_method_envelope = {
     .title = "rays between the faces of an envelope of what shows, skipping inside it",
     .source = "Haferburg, Object order empty space skipping in OpenGL 4",
     .needs_gl = true,
-    .takes =
-        ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_GRADIENTS | ANG_TAKES_ENVELOPE,
+    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_GRADIENTS |
+             ANG_TAKES_ENVELOPE | ANG_TAKES_GPU_MEMORY,
     .create = create,
     .render = render,
     .explain = explain,

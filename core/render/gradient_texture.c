@@ -149,7 +149,10 @@ bool ang_gradient_texture_update(ang_gradient_texture *gradients, ang_gl *gl, co
     glBindTexture(GL_TEXTURE_3D, 0);
     free(runs);
     free(texels);
-    return ok && ang_gl_check(gl, err);
+    ok = ok && ang_gl_check(gl, err);
+    /* Blocks count as filled already. */
+    if (!ok) ang_gradient_texture_destroy(gradients);
+    return ok;
 }
 
 void ang_gradient_texture_bind(const ang_gradient_texture *gradients, unsigned program, int unit) {

@@ -103,9 +103,8 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
 const ang_method *const *ang_methods(void);
 const ang_method *ang_method_find(const char *name);
 
-/* What --method auto takes, and why, in words: the reference without OpenGL; slicing where the volume must be drawn in
- * bricks, and where skipping and early termination pay; else the single pass, whose samples are the cheapest. `gl` may
- * be NULL. */
+/* The method for --method auto: reference without OpenGL; slicing where the volume does not fit into one texture or the
+ * budget, or an option asks for it; else envelope, which takes the fewest samples. `why` becomes the reason. */
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                                     const ang_render_options *options, const char **why);
 

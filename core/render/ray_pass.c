@@ -11,9 +11,10 @@ enum {
     BAND_ROWS = 64, /* rows drawn at once: drivers stop draws that take seconds, and users want to */
 };
 
-/* llvmpipe leaves loops, without a word, after 65535 rounds of all loops of a shader together, and march_dvr_seek takes
- * up to two rounds a sample (its loops are nested); so a ray takes at most this many samples. */
-static const double most_samples = 32000;
+/* llvmpipe leaves loops, without a word, after 65535 rounds of all loops of a shader together; so a ray takes at most
+ * this many samples. In march_dvr_seek the pixels of a vector, up to 16, wait for each other in the inner loop, each
+ * round of which counts: there it is at most that many. */
+static const double most_samples = 32000, most_samples_seek = 3500;
 
 void ang_ray_pass_destroy(ang_ray_pass *pass) {
     if (pass->vertices) glDeleteVertexArrays(1, &pass->vertices);
@@ -48,6 +49,10 @@ double ang_ray_step(const ang_volume *volume, const ang_render_options *options)
     return fmax(wanted, 2 * ang_volume_half_diagonal(volume) / most_samples);
 }
 
+static bool may_seek(const ang_volume *volume, const ang_render_options *options) {
+    return 2 * ang_volume_half_diagonal(volume) / ang_ray_step(volume, options) < most_samples_seek;
+}
+
 /* Only what the scene needs is in the program. */
 static ang_shader_source compose(const ang_ray_pass *pass, const ang_scene *scene, const ang_render_options *options,
                                  const ang_ray_limits *limits, bool counting) {
@@ -62,8 +67,8 @@ static ang_shader_source compose(const ang_ray_pass *pass, const ang_scene *scen
     ang_parts_field(&source, kind);
     ang_parts_classification(&source, scene, kind);
     limits->parts(limits->context, &source);
-    ang_parts_march(&source, scene, volume, kind, &pass->table, 1.01 * ang_ray_step(volume, options), limits->skips,
-                    options->count_shown);
+    ang_parts_march(&source, scene, volume, kind, &pass->table, 1.01 * ang_ray_step(volume, options),
+                    limits->skips || !may_seek(volume, options), options->count_shown);
     if (counting)
         ANG_SHADER_ADD(&source, picture_counted);
     else
@@ -87,6 +92,13 @@ bool ang_ray_pass_prepare(ang_ray_pass *pass, const ang_scene *scene, const ang_
     if (ang_scene_needs_table(scene) &&
         !ang_table_texture_update(&pass->table, pass->gl, scene->transfer, pass->volume, err))
         return false;
+    if (ang_scene_needs_weight(scene, pass->volume) && options->gpu_memory &&
+        2 * ang_volume_count(pass->volume) * sizeof *pass->volume->data > options->gpu_memory)
+        return ang_fail(
+            err, ANG_LIMIT,
+            "--gpu-memory: values and padding are larger, and --method %s cannot draw them in bricks; choose "
+            "--method slicing",
+            pass->method);
     return !ang_scene_needs_weight(scene, pass->volume) ||
            ang_volume_texture_add_weight(&pass->field, pass->gl, pass->volume, err);
 }

@@ -312,7 +312,7 @@ const ang_method ang_method_raycast = {
     .source = "Krueger & Westermann, Acceleration Techniques for GPU-based Volume Rendering, IEEE Visualization 2003",
     .needs_gl = true,
     .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_PASS_STEPS |
-             ANG_TAKES_SEPARATE_PASSES,
+             ANG_TAKES_SEPARATE_PASSES | ANG_TAKES_GPU_MEMORY,
     .create = create,
     .render = render,
     .explain = ang_raycast_explain,

@@ -60,8 +60,7 @@ static void decide_cover(ang_raycast *r) {
     ang_vec3 by = ang_vec3_scale(pad.index, width);
     r->cover_lower = ang_vec3_sub(f->lower, by);
     r->cover_upper = ang_vec3_add(f->upper, by);
-    ang_linear_form behind = {ang_vec3_scale(r->space.w.gradient, -1), -r->space.w.constant};
-    r->covers = ang_linear_form_greatest(&behind, r->cover_lower, r->cover_upper) < -1e-3 * farthest;
+    r->covers = ang_clip_space_ahead(&r->space, r->cover_lower, r->cover_upper);
 }
 
 static bool decide_skipping(ang_renderer *renderer, ang_raycast *r, ang_error *err) {

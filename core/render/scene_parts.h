@@ -43,7 +43,8 @@ void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table
 
 /* march, the loop along a ray, of the scene's mode, with the parts that it needs beside field and classification; the
  * parts that bound it and that skip (bounds_*.glsl, skip_*.glsl) must be there. `length`: mm that a sample stands for,
- * at most; `skips`: whether the part that skips does; `count_shown`: as
+ * at most; `skips`: whether rays skip or take too many
+ * samples for march_dvr_seek.glsl; `count_shown`: as
  * in ang_render_options. */
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
                      const ang_table_texture *table, double length, bool skips, bool count_shown);

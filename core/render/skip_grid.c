@@ -70,6 +70,8 @@ bool ang_skip_grid_update(ang_skip_grid *grid, ang_gl *gl, const ang_volume *vol
         return false;
     }
     bool changed = fresh;
+    uint8_t *before = fresh ? NULL : ang_alloc(grid->blocks, 1, "grid of distances", err);
+    if (!fresh && !before) return false;
     grid->visible_blocks = 0;
     for (size_t i = 0; i < grid->blocks; i++) {
         uint8_t shows = ang_visibility_of(visibility, grid->octree->level[0].nodes[i]);
@@ -77,9 +79,10 @@ bool ang_skip_grid_update(ang_skip_grid *grid, ang_gl *gl, const ang_volume *vol
         grid->visible[i] = shows;
         grid->visible_blocks += shows;
     }
-    if (!changed) return true;
-    uint8_t *before = fresh ? NULL : ang_alloc(grid->blocks, 1, "grid of distances", err);
-    if (!fresh && !before) return false;
+    if (!changed) {
+        free(before);
+        return true;
+    }
     if (before) memcpy(before, grid->distance, grid->blocks);
     ang_block_distances(grid->octree->level[0].dims, grid->visible, grid->distance);
     upload(grid, before);

@@ -36,6 +36,12 @@ double ang_linear_form_greatest(const ang_linear_form *form, ang_vec3 lower, ang
     return sum;
 }
 
+bool ang_clip_space_ahead(const ang_clip_space *space, ang_vec3 lower, ang_vec3 upper) {
+    ang_linear_form behind = {ang_vec3_scale(space->w.gradient, -1), -space->w.constant};
+    double farthest = ang_linear_form_greatest(&space->w, lower, upper);
+    return ang_linear_form_greatest(&behind, lower, upper) < -1e-3 * farthest;
+}
+
 bool ang_clip_space_outside(const ang_clip_space *space, ang_vec3 lower, ang_vec3 upper) {
     const ang_linear_form *across[] = {&space->x, &space->y};
     for (int i = 0; i < 2; i++)

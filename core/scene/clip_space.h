@@ -22,6 +22,10 @@ ang_clip_space ang_clip_space_make(const ang_ray_frame *frame, int width, int he
 /* The greatest value of the form over the box from `lower` to `upper`. */
 double ang_linear_form_greatest(const ang_linear_form *form, ang_vec3 lower, ang_vec3 upper);
 
+/* Whether all of the box lies well before the eye: nearer than a thousandth of its farthest point is nothing. Else
+ * OpenGL clips faces where they meet the eye's plane, and may leave their edges apart. */
+bool ang_clip_space_ahead(const ang_clip_space *space, ang_vec3 lower, ang_vec3 upper);
+
 /* Whether all of the box lies beyond one edge of the picture, or behind the eye: then no pixel shows it. */
 bool ang_clip_space_outside(const ang_clip_space *space, ang_vec3 lower, ang_vec3 upper);
 
