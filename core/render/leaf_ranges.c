@@ -7,6 +7,12 @@
 
 _Static_assert(sizeof(ang_minmax) == sizeof(uint32_t), "a range is what the shader packs: min low, max high");
 
+bool ang_leaf_ranges_fit(const int dims[3]) {
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    return (GLint64)dims[0] * dims[1] * dims[2] * (GLint64)sizeof(ang_minmax) <= most;
+}
+
 bool ang_leaf_ranges_compute(ang_gl *gl, const ang_volume_texture *field, ang_octree *octree, ang_error *err) {
     enum { GROUP = 4 };
     ang_shader_source source = {.count = 0};

@@ -14,6 +14,11 @@ static bool make_octree(ang_skip_grid *grid, ang_gl *gl, const ang_volume *volum
     static const int leaf[3] = {ANG_SKIP_BLOCK, ANG_SKIP_BLOCK, ANG_SKIP_BLOCK};
     grid->octree = field ? ang_octree_allocate(volume, leaf, 1, err) : ang_octree_build(volume, leaf, 1, threads, err);
     if (!grid->octree || !field) return grid->octree != NULL;
+    if (!ang_leaf_ranges_fit(grid->octree->level[0].dims)) {
+        ang_octree_free(grid->octree);
+        grid->octree = ang_octree_build(volume, leaf, 1, threads, err);
+        return grid->octree != NULL;
+    }
     if (!ang_leaf_ranges_compute(gl, field, grid->octree, err)) return false;
     ang_octree_finish(grid->octree, threads);
     return true;
