@@ -301,6 +301,7 @@ static void emit(traversal *t, family *f, const int which[3]) {
         emit(t, f, half);
     }
 }
+
 static join visit(traversal *t, int level, const int node[3]);
 
 /* Visits the children of a node in the order of view: adds their boxes, and returns what all cost. */

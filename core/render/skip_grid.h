@@ -8,7 +8,7 @@
 #include "core/render/program.h"
 #include "core/render/volume_texture.h"
 
-/* Cells a side of a block: with 8 a third more samples are taken, which costs more than the finer grid
+/* Cells a side of a block: with 8, 1.4 times as many samples are taken, which costs more than the finer grid
  * (docs/papers.md). */
 enum { ANG_SKIP_BLOCK = 4 };
 
