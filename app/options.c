@@ -69,6 +69,14 @@ static const option_spec table[] = {
                 "vertical field of view in perspective"),
     TEXT_OPTION("clip", ANG_VERB_RENDER, clip, "x0,x1,y0,y1,z0,z1", NULL,
                 "clip box along the index axes, in mm from the first voxel or each with % of the box"),
+    FLAG_OPTION("axes", 0, ANG_VERB_RENDER, axes,
+                "draw the patient's axes through the middle of the volume, with letters at their ends"),
+    TEXT_OPTION(
+        "cut-plane", ANG_VERB_RENDER, cut_plane, "PLANE[:MM|%],...", NULL,
+        "opaque planes of voxels in the picture, shown through the preset's window: axial, coronal, sagittal, in "
+        "mm from the first voxel or % of the box (default 50%)"),
+    TEXT_OPTION("measure", ANG_VERB_RENDER, measure, "X,Y,Z,X,Y,Z", NULL,
+                "draw a measuring mark between two points in LPS mm, with its length; further pairs follow"),
     TEXT_OPTION("background", ANG_VERB_RENDER, background, "R,G,B[,A]", "0,0,0,1", "background colour, each 0..1"),
     REAL_OPTION("termination", ANG_VERB_RENDER, termination, "A", 0.01, 1, "0.999", NULL, "stop a ray at this opacity"),
     FLAG_OPTION("no-termination", 0, ANG_VERB_RENDER, no_termination, "follow every ray to its end"),

@@ -21,12 +21,12 @@ typedef struct ang_options {
     const char *output;
     const char *series, *preset, *method, *mode, *shading, *size, *view, *projection, *clip, *background;
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
-        *skipping;
+        *skipping, *cut_plane, *measure;
     double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory,
         threshold; /* NaN where not given and without default */
     int frames, repeat, threads, seed, pass_steps, quads;
-    bool no_termination, no_skip, count_shown, separate_passes, show_bricks, explain, manual_filter, strict, annotate,
-        keep_phi, quiet, verbose, help, json_flag;
+    bool no_termination, no_skip, count_shown, separate_passes, show_bricks, axes, explain, manual_filter, strict,
+        annotate, keep_phi, quiet, verbose, help, json_flag;
     const char **arguments; /* what is not an option, NULL at the end */
     int argument_count;
 } ang_options;

@@ -67,6 +67,25 @@ static bool read_background(const ang_options *options, double background[4], an
     return true;
 }
 
+/* Axes, cut planes and marks. */
+static bool add_objects(const ang_options *options, const ang_volume *volume, ang_picture *picture, ang_error *err) {
+    ang_objects *objects = &picture->objects;
+    enum { most = 6 * 64 };
+    double at[most];
+    int count = 0;
+    if (options->axes && !ang_objects_add_axes(objects, volume, err)) return false;
+    if (options->cut_plane && !ang_objects_add_cut_planes(objects, volume, options->cut_plane, err)) return false;
+    if (options->measure && !ang_app_parse_numbers("measure", options->measure, 6, most, at, &count, err)) return false;
+    if (count % 6 != 0)
+        return ang_fail(err, ANG_USAGE, "--measure %s: give pairs of points, six numbers each", options->measure);
+    for (int i = 0; i < count; i += 6)
+        if (!ang_objects_add_mark(objects, volume, (ang_vec3){at[i], at[i + 1], at[i + 2]},
+                                  (ang_vec3){at[i + 3], at[i + 4], at[i + 5]}, err))
+            return false;
+    picture->scene.objects = objects->count > 0 ? objects : NULL;
+    return true;
+}
+
 bool ang_picture_start(const ang_options *options, ang_picture *picture, ang_error *err) {
     if (!options->preset) return true;
     picture->preset = ang_preset_find(options->preset, ang_app_preset_folders(), err);
@@ -113,7 +132,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     picture->view.fov_deg = options->fov;
     scene->camera = ang_camera_for(volume, &picture->view);
     if (options->clip && !ang_scene_clip_parse(options->clip, volume, scene, err)) return false;
-    if (!read_background(options, scene->background, err)) return false;
+    if (!read_background(options, scene->background, err) || !add_objects(options, volume, picture, err)) return false;
 
     picture->render = ang_render_options_default;
     picture->render.step_voxels = options->step;
@@ -142,5 +161,6 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
 void ang_picture_clear(ang_picture *picture) {
     ang_preset_free(picture->preset);
     ang_transfer_free(picture->shifted);
+    ang_objects_clear(&picture->objects);
     *picture = (ang_picture){0};
 }

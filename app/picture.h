@@ -5,6 +5,7 @@
 #include "app/options.h"
 #include "core/base/notes.h"
 #include "core/render/method.h"
+#include "core/scene/objects.h"
 #include "core/scene/scene.h"
 #include "core/transfer/preset.h"
 #include "io/load.h"
@@ -15,6 +16,7 @@ typedef struct ang_picture {
     ang_transfer *shifted; /* where --shift moved the preset's */
     double shift_hu;
     ang_view view;
+    ang_objects objects; /* what the scene borrows */
     ang_scene scene;
     ang_render_options render;
     bool lookups; /* not the picture is wanted but how many samples each of its pixels took */

@@ -72,12 +72,17 @@ static void note_ignored(session *run) {
                  {ANG_TAKES_GPU_MEMORY, "--gpu-memory"},
                  {ANG_TAKES_GRADIENTS, "--gradients"},
                  {ANG_TAKES_ENVELOPE, "--skipping or --quads"},
-                 {ANG_TAKES_SEPARATE_PASSES, "--separate-passes"}};
+                 {ANG_TAKES_SEPARATE_PASSES, "--separate-passes"},
+                 {ANG_TAKES_COUNT_SHOWN, "--count-shown"}};
     unsigned ignored = ang_method_ignores(run->method, &run->picture.render);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (ignored & names[i].takes)
             ang_notes_add(&run->summary.warnings, "%s has no effect with --method %s", names[i].option,
                           run->method->name);
+    const ang_scene *scene = &run->picture.scene;
+    if (run->picture.render.count_shown && (scene->mode != ANG_MODE_DVR || scene->shading != ANG_SHADING_NONE) &&
+        !(ignored & ANG_TAKES_COUNT_SHOWN))
+        ang_notes_add(&run->summary.warnings, "--count-shown has no effect but in mode dvr with --shading none");
 }
 
 /* Finds the method and, where it needs one, a GL context. */
@@ -226,8 +231,10 @@ static void frame_path(const char *output, int frame, int frames, char *path, si
 }
 
 static bool write_picture(session *run, const char *path, ang_error *err) {
-    if (run->options->annotate) {
-        ang_annotation annotation = ang_annotation_make(&run->picture.scene, run->picture.preset->name);
+    const ang_scene *scene = &run->picture.scene;
+    if (run->options->annotate || scene->objects) {
+        ang_annotation annotation = run->options->annotate ? ang_annotation_make(scene, run->picture.preset->name)
+                                                           : ang_annotation_of_objects(scene);
         if (!ang_image_annotate(&run->image, &annotation, &run->summary.warnings, err)) return false;
     }
     return ang_image_write(path, &run->image, run->picture.scene.background, err);

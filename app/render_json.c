@@ -75,6 +75,24 @@ static void add_point(cJSON *object, const char *name, ang_vec3 p) {
     cJSON_AddItemToObject(object, name, cJSON_CreateDoubleArray((double[3]){p.x, p.y, p.z}, 3));
 }
 
+static void add_objects(cJSON *out, const ang_objects *objects) {
+    cJSON *list = cJSON_AddArrayToObject(out, "objects");
+    for (size_t i = 0; objects && i < objects->count; i++) {
+        const ang_object *object = &objects->object[i];
+        cJSON *entry = cJSON_CreateObject();
+        cJSON_AddStringToObject(entry, "kind", object->kind == ANG_OBJECT_PLANE ? "cut plane" : "tube");
+        if (object->kind == ANG_OBJECT_PLANE) {
+            cJSON_AddNumberToObject(entry, "axis", object->axis);
+            ang_json_add_number(entry, "index", object->index);
+        } else {
+            add_point(entry, "from", object->from);
+            add_point(entry, "to", object->to);
+            ang_json_add_number(entry, "radius_mm", object->radius_mm);
+        }
+        cJSON_AddItemToArray(list, entry);
+    }
+}
+
 /* What the options made of the picture, so that it can be made again. A preset is called by the name it gives itself:
  * its path may say more. */
 static cJSON *picture_json(const ang_picture *picture) {
@@ -100,6 +118,7 @@ static cJSON *picture_json(const ang_picture *picture) {
     add_point(clip, "lower", scene->clip_lower);
     add_point(clip, "upper", scene->clip_upper);
     cJSON_AddItemToObject(out, "background", cJSON_CreateDoubleArray(scene->background, 4));
+    add_objects(out, scene->objects);
     ang_json_add_number(out, "step_voxels", picture->render.step_voxels);
     ang_json_add_number(out, "termination", picture->render.termination);
     return out;

@@ -33,7 +33,7 @@ Ray ray_through(vec2 pixel) {
     ray.direction = scale * along;
 
     ray.enter = ray_near_depth / dot(ray.direction_mm, ray_axis_mm);
-    ray.leave = 1e30;
+    ray.leave = ray_limit(pixel);
     for (int axis = 0; axis < 3; axis++) {
         float low = box_lower[axis] - ray.origin[axis];
         float high = box_upper[axis] - ray.origin[axis];

@@ -3,6 +3,7 @@
 #include "core/base/memory.h"
 #include "core/cpu/integrate.h"
 #include "core/math/polynomial.h"
+#include "core/scene/objects.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -332,10 +333,13 @@ static void walk(const ang_reference *reference, const ang_ray *ray, gathered *s
     }
 }
 
-void ang_reference_pixel(const ang_reference *reference, double x, double y, double rgba[4], uint64_t *samples) {
+/* What the volume shows up to `limit` mm along the ray. */
+static void volume_pixel(const ang_reference *reference, double x, double y, double limit, double rgba[4],
+                         uint64_t *samples) {
     const ang_scene *scene = reference->scene;
     memset(rgba, 0, 4 * sizeof *rgba);
     ang_ray ray = ang_ray_through(&reference->frame, x, y);
+    ray.leave = fmin(ray.leave, limit);
     if (!(ray.enter < ray.leave)) return;
     uint64_t evaluated = 0;
     gathered sum = {.light.transmittance = 1};
@@ -360,5 +364,18 @@ void ang_reference_pixel(const ang_reference *reference, double x, double y, dou
         break;
     }
     rgba[0] = rgba[1] = rgba[2] = ang_scene_grey(scene, hu);
+    rgba[3] = 1;
+}
+
+void ang_reference_pixel(const ang_reference *reference, double x, double y, double rgba[4], uint64_t *samples) {
+    const ang_scene *scene = reference->scene;
+    const ang_volume *volume = reference->volume;
+    double t, colour[3];
+    bool hit = scene->objects && ang_objects_hit(scene->objects, volume, scene, &reference->frame, x, y, &t, colour);
+    bool limits = hit && ang_scene_limits_rays(scene);
+    volume_pixel(reference, x, y, limits ? t : INFINITY, rgba, samples);
+    if (!hit) return;
+    double through = limits ? 1 - rgba[3] : 1;
+    for (int c = 0; c < 3; c++) rgba[c] = (limits ? rgba[c] : 0) + through * colour[c];
     rgba[3] = 1;
 }

@@ -9,6 +9,7 @@
 #include "core/base/memory.h"
 
 #include <shaders.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { UNIT_GRID = ANG_UNIT_FREE, UNIT_RANGE, UNIT_GRADIENTS };
@@ -19,12 +20,15 @@ static const size_t most_faces_software = 600, most_faces = 65536;
 
 /* Of a texture of gradients that nobody has asked for. */
 static const size_t most_gradient_bytes = (size_t)2 << 30;
+static const char no_gradient_memory[] = "there is no memory for it";
 
 struct ang_renderer {
     ang_ray_pass pass;
     ang_skip_grid grid;
     ang_envelope_hull hull;
     ang_gradient_texture gradients;
+    bool gradients_refused; /* there was no memory for them */
+    char note[160];         /* what the user should know */
 };
 
 /* What is decided about one picture. */
@@ -81,12 +85,22 @@ static bool decide_gradients(ang_renderer *renderer, const ang_scene *scene, con
         d->why_no_gradients = "--gpu-memory does not hold it";
     else if (options->gradients == ANG_GRADIENTS_AUTO && ang_gradient_texture_bytes(volume) > most_gradient_bytes)
         d->why_no_gradients = "it would take more than 2 GB; --gradients texture makes it all the same";
+    else if (renderer->gradients_refused)
+        d->why_no_gradients = no_gradient_memory;
     else if (!ang_gradient_texture_fits(volume))
         d->why_no_gradients = "it is larger than one texture of this OpenGL may be";
     d->gradients = !d->why_no_gradients;
     renderer->gradients.build_ms = 0;
-    return !d->gradients || ang_gradient_texture_update(&renderer->gradients, renderer->pass.gl, volume,
-                                                        &renderer->grid, options->threads, err);
+    ang_error lack = {0};
+    if (!d->gradients || ang_gradient_texture_update(&renderer->gradients, renderer->pass.gl, volume, &renderer->grid,
+                                                     options->threads, &lack))
+        return true;
+    if (lack.code != ANG_LIMIT) return ang_fail(err, lack.code, "%s", lack.message);
+    ang_gradient_texture_destroy(&renderer->gradients);
+    renderer->gradients_refused = true;
+    d->gradients = false;
+    d->why_no_gradients = no_gradient_memory;
+    return true;
 }
 
 static bool decide_skipping(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
@@ -179,6 +193,10 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     if (!decide(renderer, scene, options, &d, err)) return false;
     if (d.bounds && !draw_range(renderer, scene, &d, err)) return false;
     const ang_skip_grid *grid = &renderer->grid;
+    bool refused = options->gradients == ANG_GRADIENTS_TEXTURE && d.why_no_gradients;
+    if (refused)
+        snprintf(renderer->note, sizeof renderer->note, "--gradients texture: gradients are looked up, since %s",
+                 d.why_no_gradients);
     if (stats)
         *stats = (ang_frame_stats){.counts = stats->counts,
                                    .bricks_drawn = d.skips || d.bounds ? grid->visible_blocks : 1,
@@ -186,7 +204,8 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
                                    .polygons = d.bounds ? renderer->hull.faces : 0,
                                    .passes = d.bounds ? 2 : 1,
                                    .octree_ms = grid->build_ms,
-                                   .upload_ms = renderer->gradients.build_ms};
+                                   .upload_ms = renderer->gradients.build_ms,
+                                   .note = refused ? renderer->note : NULL};
     const ang_ray_limits limits = {add_parts, set_uniforms, &d, d.skips, d.gradients};
     return ang_ray_pass_draw(&renderer->pass, scene, options, &d.frame, &limits, image, stats, progress, err);
 }
@@ -245,8 +264,8 @@ const ang_method ang_method_envelope = {
     .title = "rays between the faces of an envelope of what shows, skipping inside it",
     .source = "Haferburg, Object order empty space skipping in OpenGL 4",
     .needs_gl = true,
-    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_GRADIENTS |
-             ANG_TAKES_ENVELOPE | ANG_TAKES_GPU_MEMORY,
+    .takes = ANG_TAKES_COUNT_SHOWN | ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP |
+             ANG_TAKES_GRADIENTS | ANG_TAKES_ENVELOPE | ANG_TAKES_GPU_MEMORY,
     .create = create,
     .render = render,
     .explain = explain,

@@ -136,6 +136,7 @@ void ang_envelope_hull_parts(ang_shader_source *vertex, ang_shader_source *fragm
     ANG_SHADER_ADD(vertex, version);
     ANG_SHADER_ADD(vertex, hull_expand);
     ANG_SHADER_ADD(fragment, version);
+    ANG_SHADER_ADD(fragment, limit_none); /* the pass that reads the ranges ends its rays itself */
     ANG_SHADER_ADD(fragment, ray);
     ANG_SHADER_ADD(fragment, hull_range);
 }

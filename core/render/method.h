@@ -68,7 +68,8 @@ typedef enum ang_method_takes {
     ANG_TAKES_GPU_MEMORY = 128,
     ANG_TAKES_GRADIENTS = 256,
     ANG_TAKES_ENVELOPE = 512, /* skipping and quads */
-    ANG_TAKES_SEPARATE_PASSES = 1024
+    ANG_TAKES_SEPARATE_PASSES = 1024,
+    ANG_TAKES_COUNT_SHOWN = 2048
 } ang_method_takes;
 
 typedef struct ang_gl ang_gl;             /* core/render/context.h */
@@ -104,7 +105,8 @@ const ang_method *const *ang_methods(void);
 const ang_method *ang_method_find(const char *name);
 
 /* The method for --method auto: reference without OpenGL; slicing where the volume does not fit into one texture or the
- * budget, or an option asks for it; else envelope, which takes the fewest samples. `why` becomes the reason. */
+ * budget; slicing or raycast where an option asks for them; else envelope, which takes the fewest samples. `why`
+ * becomes the reason. */
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                                     const ang_render_options *options, const char **why);
 

@@ -31,6 +31,7 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
     if (options->gpu_memory) given |= ANG_TAKES_GPU_MEMORY;
     if (options->gradients) given |= ANG_TAKES_GRADIENTS;
     if (options->skipping || options->quads) given |= ANG_TAKES_ENVELOPE;
+    if (options->count_shown) given |= ANG_TAKES_COUNT_SHOWN;
     return given & ~method->takes;
 }
 
@@ -44,8 +45,12 @@ const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const 
     if ((options->gpu_memory && bytes > options->gpu_memory) || !ang_volume_texture_fits(gl, volume->dims, NULL))
         return &ang_method_slicing;
     *why = "an option asks for slicing";
-    if (options->bricks[0] || options->show_bricks || options->pass_steps || options->proxy != ANG_PROXY_VERTEX_PROGRAM)
+    int steps = options->pass_steps;
+    bool planes = steps == 1 || steps == 2 || steps == 4; /* what slicing composites in a fragment */
+    if (options->bricks[0] || options->show_bricks || planes || options->proxy != ANG_PROXY_VERTEX_PROGRAM)
         return &ang_method_slicing;
+    *why = "an option asks for raycast";
+    if (options->separate_passes || steps) return &ang_method_raycast;
     *why = "it takes the fewest samples: rays skip what shows nothing";
     return &ang_method_envelope;
 }

@@ -20,6 +20,7 @@ void ang_ray_pass_destroy(ang_ray_pass *pass) {
     if (pass->vertices) glDeleteVertexArrays(1, &pass->vertices);
     ang_target_destroy(&pass->target);
     ang_programs_clear(&pass->programs);
+    ang_limit_texture_destroy(&pass->limits);
     ang_table_texture_destroy(&pass->table);
     ang_volume_texture_destroy(&pass->field);
     *pass = (ang_ray_pass){0};
@@ -62,7 +63,7 @@ static ang_shader_source compose(const ang_ray_pass *pass, const ang_scene *scen
                                                    : ANG_FIELD_HARDWARE;
     ang_shader_source source = {.count = 0};
     ANG_SHADER_ADD(&source, version);
-    ANG_SHADER_ADD(&source, ray);
+    ang_parts_ray(&source, scene, true);
     ANG_SHADER_ADD(&source, lattice);
     ang_parts_field(&source, kind);
     ang_parts_classification(&source, scene, kind);
@@ -91,6 +92,8 @@ bool ang_ray_pass_prepare(ang_ray_pass *pass, const ang_scene *scene, const ang_
     if (!ang_scene_check(scene, err) || !ang_ray_frame_make(pass->volume, scene, frame, err)) return false;
     if (ang_scene_needs_table(scene) &&
         !ang_table_texture_update(&pass->table, pass->gl, scene->transfer, pass->volume, err))
+        return false;
+    if (!ang_limit_texture_update(&pass->limits, pass->gl, pass->volume, scene, frame, options->threads, err))
         return false;
     if (ang_scene_needs_weight(scene, pass->volume) && options->gpu_memory &&
         2 * ang_volume_count(pass->volume) * sizeof *pass->volume->data > options->gpu_memory)
@@ -131,6 +134,7 @@ static void set_uniforms(const ang_ray_pass *pass, GLuint program, const ang_sce
     ang_uniforms_ray(program, frame);
     ang_uniforms_field(program, &pass->field, pass->volume, frame);
     ang_uniforms_scene(program, scene, pass->volume, frame, &pass->table);
+    ang_limit_texture_bind(&pass->limits, scene, program, ANG_UNIT_LIMIT);
     ang_uniform_float(program, "lattice_step", ang_ray_step(pass->volume, options));
     if (scene->mode == ANG_MODE_DVR) ang_uniform_float(program, "termination", options->termination);
     limits->uniforms(limits->context, program, frame);
@@ -156,6 +160,7 @@ bool ang_ray_pass_draw(ang_ray_pass *pass, const ang_scene *scene, const ang_ren
     glUseProgram(program);
     set_uniforms(pass, program, scene, options, frame, limits);
     bool ok = draw_bands(pass, image, stats, progress, err);
+    if (ok) ang_limit_texture_join(&pass->limits, scene, image);
     glUseProgram(0);
     glBindVertexArray(0);
     glDisable(GL_SCISSOR_TEST);

@@ -3,6 +3,7 @@
 #ifndef ANG_RENDER_RAY_PASS_H
 #define ANG_RENDER_RAY_PASS_H
 
+#include "core/render/limit_texture.h"
 #include "core/render/method.h"
 #include "core/render/program.h"
 #include "core/render/table_texture.h"
@@ -16,6 +17,7 @@ typedef struct ang_ray_pass {
     const ang_volume *volume;
     ang_volume_texture field;
     ang_table_texture table;
+    ang_limit_texture limits; /* opaque geometry */
     ang_programs programs;
     ang_target target;
     unsigned vertices; /* no attributes, but a draw needs one bound */

@@ -287,6 +287,7 @@ static bool draw_all(ang_renderer *renderer, const ang_raycast *r, ang_image *im
         stats->passes++;
     }
     ang_target_read(shown, 0, r->scene->height, image);
+    ang_limit_texture_join(&renderer->pass.limits, r->scene, image);
     return !counting || read_counts(renderer, shown == &renderer->resolved, stats->counts, stats, err);
 }
 

@@ -82,7 +82,7 @@ static void add_value(ang_shader_source *source, const ang_renderer *renderer, c
 }
 
 static void compose_rays(ang_shader_source *source, const ang_raycast *r) {
-    ANG_SHADER_ADD(source, ray);
+    ang_parts_ray(source, r->scene, true);
     add_path(source, r, false);
     add_wake(source, r);
     ANG_SHADER_ADD(source, raycast_rays);
@@ -90,7 +90,7 @@ static void compose_rays(ang_shader_source *source, const ang_raycast *r) {
 
 static void compose_main(ang_shader_source *source, const ang_renderer *renderer, const ang_raycast *r, bool counting) {
     if (ang_raycast_tests(r)) ANG_SHADER_ADD(source, early);
-    if (ang_scene_needs_phong(r->scene) && r->scene->mode == ANG_MODE_DVR) ANG_SHADER_ADD(source, ray);
+    if (ang_scene_needs_phong(r->scene) && r->scene->mode == ANG_MODE_DVR) ang_parts_ray(source, r->scene, false);
     add_path(source, r, true);
     add_wake(source, r);
     add_value(source, renderer, r);
@@ -125,7 +125,7 @@ static void compose_empty(ang_shader_source *source, const ang_raycast *r) {
 
 static void compose_resolve(ang_shader_source *source, const ang_raycast *r, bool counting) {
     const ang_scene *scene = r->scene;
-    ANG_SHADER_ADD(source, ray);
+    ang_parts_ray(source, scene, false);
     if (scene->mode == ANG_MODE_ISO) {
         add_path(source, r, true);
         ang_parts_field(source, field_kind(r));
@@ -188,6 +188,7 @@ unsigned ang_raycast_program(ang_renderer *renderer, const ang_raycast *r, ang_r
     ang_uniforms_ray(program, &r->frame);
     ang_uniforms_field(program, &on->field, on->volume, &r->frame);
     ang_uniforms_scene(program, r->scene, on->volume, &r->frame, &on->table);
+    ang_limit_texture_bind(&on->limits, r->scene, program, ANG_UNIT_LIMIT);
     ang_uniforms_clip_space(program, &r->space);
     ang_uniform_vec3(program, "cover_lower", r->cover_lower);
     ang_uniform_vec3(program, "cover_upper", r->cover_upper);

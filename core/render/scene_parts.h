@@ -10,7 +10,7 @@
 #include "core/scene/scene.h"
 
 /* The texture units that the parts read from; methods take further ones from ANG_UNIT_FREE on. */
-enum { ANG_UNIT_TABLE, ANG_UNIT_FIELD, ANG_UNIT_WEIGHT, ANG_UNIT_FREE };
+enum { ANG_UNIT_TABLE, ANG_UNIT_FIELD, ANG_UNIT_WEIGHT, ANG_UNIT_LIMIT, ANG_UNIT_FREE };
 
 /* What of a scene costs lookups. */
 bool ang_scene_needs_table(const ang_scene *scene);                            /* dvr, iso */

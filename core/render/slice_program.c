@@ -1,5 +1,6 @@
 #include "core/render/slice_program.h"
 
+#include "core/render/limit_texture.h"
 #include "core/render/scene_parts.h"
 #include "core/render/slice_geometry.h"
 
@@ -54,7 +55,7 @@ static void compose_slices(sources *to, bool faces, const ang_slice_recipe *reci
     bool counting = recipe->counting;
     ang_slice_geometry_parts(recipe->options->proxy, group, &to->vertex);
     if (recipe->early) ANG_SHADER_ADD(&to->fragment, early);
-    ANG_SHADER_ADD(&to->fragment, ray);
+    ang_parts_ray(&to->fragment, recipe->scene, true);
     ang_slice_planes_parts(group, &to->fragment);
     ANG_SHADER_ADD(&to->fragment, slice_sample);
     if (faces)
@@ -75,7 +76,7 @@ static void compose_slices(sources *to, bool faces, const ang_slice_recipe *reci
 }
 
 static void compose_resolve(ang_shader_source *source, const ang_scene *scene) {
-    ANG_SHADER_ADD(source, ray);
+    ang_parts_ray(source, scene, false);
     ANG_SHADER_ADD(source, window);
     if (scene->mode == ANG_MODE_MEAN)
         ANG_SHADER_ADD(source, resolve_mean);
@@ -91,7 +92,8 @@ static sources compose(ang_slice_pass pass, const ang_slice_recipe *recipe) {
     switch (pass) {
     case ANG_SLICE_INNER:
     case ANG_SLICE_FACES:
-        compose_slices(&to, pass == ANG_SLICE_FACES, recipe);
+        /* Where opaque geometry ends rays, any sample may be the last. */
+        compose_slices(&to, pass == ANG_SLICE_FACES || ang_scene_limits_rays(recipe->scene), recipe);
         break;
     case ANG_SLICE_FINISH:
         ANG_SHADER_ADD(&to.vertex, triangle);

@@ -22,6 +22,7 @@ static void destroy(ang_renderer *renderer) {
     ang_target_destroy(&renderer->accumulated);
     ang_target_destroy(&renderer->resolved);
     ang_programs_clear(&renderer->programs);
+    ang_limit_texture_destroy(&renderer->limits);
     ang_table_texture_destroy(&renderer->table);
     ang_slice_geometry_destroy(&renderer->geometry);
     ang_slice_boxes_clear(&renderer->boxes);
@@ -302,6 +303,7 @@ static bool draw(ang_renderer *renderer, const ang_scene *scene, const ang_rende
     for (int k = 0; k < 2; k++) {
         ang_uniforms_ray(use.slices[k], &s->frame);
         ang_uniforms_scene(use.slices[k], scene, renderer->volume, &s->frame, &renderer->table);
+        ang_limit_texture_bind(&renderer->limits, scene, use.slices[k], ANG_UNIT_LIMIT);
         ang_slice_geometry_uniforms(&renderer->geometry, use.slices[k], &s->planes, &s->frame, &s->space, &s->order);
         set_planes(use.slices[k], s);
     }
@@ -317,6 +319,7 @@ static bool draw(ang_renderer *renderer, const ang_scene *scene, const ang_rende
     if (ok && use.resolve) resolve(renderer, scene, s, use.resolve);
     if (ok && use.edges) ok = draw_edges(renderer, scene, s, use.edges, err);
     if (ok) ang_target_read(shown, 0, scene->height, image);
+    if (ok) ang_limit_texture_join(&renderer->limits, scene, image);
     return ok && (!counting || read_counts(&renderer->accumulated, stats, err));
 }
 

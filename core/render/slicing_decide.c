@@ -124,6 +124,8 @@ bool ang_slicing_decide(ang_renderer *renderer, const ang_scene *scene, const an
     if (ang_scene_needs_table(scene) &&
         !ang_table_texture_update(&renderer->table, renderer->gl, scene->transfer, volume, err))
         return false;
+    if (!ang_limit_texture_update(&renderer->limits, renderer->gl, volume, scene, &s->frame, options->threads, err))
+        return false;
     s->space = ang_clip_space_make(&s->frame, scene->width, scene->height);
     s->planes = ang_slice_planes_make(&s->frame, options->step_voxels * ang_volume_smallest_spacing(volume));
     s->visibility = ang_visibility_make(volume, scene, renderer->table.tables);

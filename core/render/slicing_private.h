@@ -4,6 +4,7 @@
 
 #include "core/plan/boxes.h"
 #include "core/render/brick_store.h"
+#include "core/render/limit_texture.h"
 #include "core/render/method.h"
 #include "core/render/slice_geometry.h"
 #include "core/render/slice_program.h"
@@ -15,6 +16,7 @@ struct ang_renderer {
     const ang_volume *volume;
     ang_brick_store store;
     ang_table_texture table;
+    ang_limit_texture limits; /* opaque geometry */
     ang_programs programs;
     ang_target accumulated, resolved;
     ang_slice_geometry geometry;

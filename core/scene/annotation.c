@@ -1,5 +1,7 @@
 #include "core/scene/annotation.h"
 
+#include "core/scene/objects.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -52,23 +54,51 @@ static double scale_at_centre(const ang_scene *scene) {
     return scale > 0 && isfinite(scale) ? scale : NAN; /* a centre behind the eye has no scale */
 }
 
+/* Where the camera shows a point; false where that is beside or behind the eye. */
+static bool project(const ang_scene *scene, ang_vec3 at, double *x, double *y) {
+    const ang_camera *camera = &scene->camera;
+    ang_vec3 from = ang_vec3_sub(at, camera->eye);
+    double depth = ang_vec3_dot(from, camera->forward), half = camera->half_height;
+    if (camera->projection == ANG_PERSPECTIVE) half = depth * tan(camera->fov_deg * (M_PI / 360));
+    double pixel = 2 * half / scene->height;
+    if (!(depth > camera->near_mm) || !(pixel > 0)) return false;
+    *x = 0.5 * scene->width + ang_vec3_dot(from, camera->right) / pixel;
+    *y = 0.5 * scene->height - ang_vec3_dot(from, camera->up) / pixel;
+    return true;
+}
+
+static bool is_light(const ang_scene *scene) {
+    const double *b = scene->background;
+    return b[3] * (0.299 * b[0] + 0.587 * b[1] + 0.114 * b[2]) > 0.5;
+}
+
+ang_annotation ang_annotation_of_objects(const ang_scene *scene) {
+    ang_annotation a = {.dark_ink = is_light(scene)};
+    const ang_objects *objects = scene->objects;
+    for (size_t i = 0; objects && i < objects->label_count && a.labels < ANG_ANNOTATION_LABELS; i++) {
+        ang_annotation_label *label = &a.label[a.labels];
+        if (!project(scene, objects->label[i].at, &label->x, &label->y)) continue;
+        if (objects->label[i].below) label->y += fmax(scene->height, 440) / 25.0; /* letters are a fortieth */
+        snprintf(label->text, sizeof label->text, "%s", objects->label[i].text);
+        a.labels++;
+    }
+    return a;
+}
+
 ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_name) {
     const ang_camera *camera = &scene->camera;
-    ang_annotation a = {
-        .left = ang_letters_make(ang_vec3_scale(camera->right, -1)),
-        .right = ang_letters_make(camera->right),
-        .top = ang_letters_make(camera->up),
-        .bottom = ang_letters_make(ang_vec3_scale(camera->up, -1)),
-        .mm_per_pixel = scale_at_centre(scene),
-    };
+    ang_annotation a = ang_annotation_of_objects(scene);
+    a.left = ang_letters_make(ang_vec3_scale(camera->right, -1));
+    a.right = ang_letters_make(camera->right);
+    a.top = ang_letters_make(camera->up);
+    a.bottom = ang_letters_make(ang_vec3_scale(camera->up, -1));
+    a.mm_per_pixel = scale_at_centre(scene);
     if (a.mm_per_pixel > 0) {
         a.bar_mm = ang_round_length(bar_share * scene->width * a.mm_per_pixel);
         a.bar_pixels = a.bar_mm / a.mm_per_pixel;
         snprintf(a.bar_label, sizeof a.bar_label, "%.6g mm%s", a.bar_mm,
                  camera->projection == ANG_PERSPECTIVE ? " at the centre" : "");
     }
-    const double *b = scene->background;
-    a.dark_ink = b[3] * (0.299 * b[0] + 0.587 * b[1] + 0.114 * b[2]) > 0.5;
     const char *mode = ang_mode_name(scene->mode);
     bool named = preset_name && *preset_name;
     snprintf(a.caption, sizeof a.caption, "%.100s%s%s", named ? preset_name : "", named && mode ? ", " : "",

@@ -10,6 +10,14 @@ typedef struct ang_letters {
     char text[4];
 } ang_letters;
 
+/* Words in the picture, centred. */
+typedef struct ang_annotation_label {
+    double x, y; /* pixels from the left top corner */
+    char text[24];
+} ang_annotation_label;
+
+enum { ANG_ANNOTATION_LABELS = 80 }; /* at most; more are left out */
+
 /* Plain value, owns nothing. */
 typedef struct ang_annotation {
     ang_letters left, right, top, bottom; /* where each edge of the picture points to in the patient */
@@ -19,6 +27,8 @@ typedef struct ang_annotation {
     char bar_label[48];                   /* "50 mm", in perspective "50 mm at the centre" */
     bool dark_ink;                        /* black with a light outline, for light backgrounds; else white */
     char caption[128];                    /* "cta-head, dvr" */
+    ang_annotation_label label[ANG_ANNOTATION_LABELS]; /* of the scene's objects */
+    int labels;
 } ang_annotation;
 
 /* Letters of a direction in LPS: L R for x, P A for y, H F for z; the largest component first, then each further one
@@ -31,5 +41,7 @@ double ang_round_length(double limit);
 /* What to write on the scene's picture. The bar is the longest round length within a fifth of the picture's width.
  * `preset_name` (NULL: none) is shown as given: a preset's own name, never a path. Pure, thread safe. */
 ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_name);
+/* Only the labels of the scene's objects. */
+ang_annotation ang_annotation_of_objects(const ang_scene *scene);
 
 #endif

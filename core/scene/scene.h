@@ -55,7 +55,9 @@ bool ang_view_parse(const char *text, ang_view *view, ang_error *err);
 /* The camera of DESIGN.md for this view of this volume. */
 ang_camera ang_camera_for(const ang_volume *volume, const ang_view *view);
 
-/* Everything that decides what the picture shows. Borrows `transfer`. */
+typedef struct ang_objects ang_objects; /* core/scene/objects.h */
+
+/* Everything that decides what the picture shows. Borrows `transfer` and `objects`. */
 typedef struct ang_scene {
     int width, height; /* pixels */
     ang_camera camera;
@@ -66,7 +68,8 @@ typedef struct ang_scene {
     double iso_hu;
     double window_centre, window_width; /* HU */
     const ang_transfer *transfer;
-    double background[4]; /* r, g, b, a in 0..1, not premultiplied; default 0,0,0,1 */
+    const ang_objects *objects; /* opaque geometry; NULL: none */
+    double background[4];       /* r, g, b, a in 0..1, not premultiplied; default 0,0,0,1 */
 } ang_scene;
 /* 512x512, anterior, whole box, dvr, no shading, window 400/40 (width/centre), no transfer function, black background.
  */

@@ -121,6 +121,16 @@ static void draw_end_letters(sheet *sheet, const ang_annotation *a) {
     draw_text(sheet, middle, sheet->height - sheet->margin, a->bottom.text, sheet->size, 0);
 }
 
+static void draw_labels(sheet *sheet, const ang_annotation *a, int small) {
+    int width, top, bottom;
+    if (!text_extent(sheet, "H", small, &width, &top, &bottom)) return;
+    for (int i = 0; i < a->labels; i++) {
+        const ang_annotation_label *label = &a->label[i];
+        bool inside = label->x >= 0 && label->x < sheet->width && label->y >= 0 && label->y < sheet->height;
+        if (inside) draw_text(sheet, (int)lround(label->x), (int)lround(label->y) - top / 2, label->text, small, 0);
+    }
+}
+
 /* The largest coverage within `radius` pixels of (x, y), falling off over the last pixel. */
 static float halo(const sheet *sheet, int x, int y, double radius) {
     int reach = (int)ceil(radius);
@@ -194,6 +204,7 @@ bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_
     unsigned char *rows = sheet.mask ? ang_alloc((size_t)image->height, 1, "annotation", err) : NULL;
     if (rows) {
         draw_side_letters(&sheet, annotation);
+        draw_labels(&sheet, annotation, small);
         if (!sides_only) {
             draw_end_letters(&sheet, annotation);
             draw_bar(&sheet, annotation, small);
