@@ -262,6 +262,11 @@ static void reset_state(void) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+/* Then there is no ray to follow; in other modes what is shown depends on which rays meet the box. */
+static bool shows_nothing(const ang_renderer *renderer, const ang_raycast *r) {
+    return r->scene->mode == ANG_MODE_DVR && r->skips && renderer->blocks.shown == 0;
+}
+
 static bool draw_all(ang_renderer *renderer, const ang_raycast *r, ang_image *image, bool counting,
                      ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
     GLuint programs[ANG_RAYCAST_PASSES] = {0};
@@ -273,12 +278,13 @@ static bool draw_all(ang_renderer *renderer, const ang_raycast *r, ang_image *im
         if (!programs[pass]) return false;
     }
     set_state(renderer, r);
-    uint64_t entered = draw_rays(renderer, r, programs[ANG_RAYCAST_RAYS]);
+    bool nothing = shows_nothing(renderer, r);
+    uint64_t entered = nothing ? 0 : draw_rays(renderer, r, programs[ANG_RAYCAST_RAYS]);
     set_outputs(renderer, counting, r->joined);
     set_blending(r->scene);
     glDepthMask(GL_FALSE);
     stats->fragments = entered;
-    stats->passes = 1;
+    stats->passes = !nothing;
     if (!cast(renderer, r, programs, entered, &stats->passes, progress, err)) return false;
     const ang_target *shown = &renderer->pass.target;
     if (programs[ANG_RAYCAST_RESOLVE]) {
