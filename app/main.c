@@ -19,6 +19,8 @@ static const verb_entry verbs[] = {
     {"phantom", ANG_VERB_PHANTOM, ang_app_phantom, "phantom -o DIR [options]",
      "a synthetic head CTA as a DICOM series"},
     {"check", ANG_VERB_CHECK, ang_app_check, "check A.png B.png [options]", "how far two pictures differ"},
+    {"selfcheck", ANG_VERB_SELFCHECK, ang_app_selfcheck, "selfcheck [options]",
+     "stiff and extreme scenes on this machine's OpenGL"},
 };
 enum { verb_count = sizeof verbs / sizeof *verbs };
 

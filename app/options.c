@@ -23,7 +23,8 @@ typedef struct option_spec {
 
 #define FIELD(field) offsetof(ang_options, field)
 #define READS        (ANG_VERB_INFO | ANG_VERB_RENDER)
-#define ALL          (ANG_VERB_INFO | ANG_VERB_RENDER | ANG_VERB_PRESETS | ANG_VERB_PHANTOM | ANG_VERB_CHECK)
+#define ALL                                                                                                            \
+    (ANG_VERB_INFO | ANG_VERB_RENDER | ANG_VERB_PRESETS | ANG_VERB_PHANTOM | ANG_VERB_CHECK | ANG_VERB_SELFCHECK)
 #define TEXT_OPTION(name, verbs, field, argument, initial, help)                                                       \
     { name, 0, TEXT, verbs, FIELD(field), argument, 0, 0, initial, NULL, help }
 #define CHOICE_OPTION(name, field, words, initial, help)                                                               \
@@ -117,7 +118,11 @@ static const option_spec table[] = {
     INTEGER_OPTION("repeat", ANG_VERB_RENDER, repeat, 0, 100000, "0",
                    "time this many frames after one warm-up, spread over --orbit"),
     CHOICE_OPTION("backend", backend, "auto|egl|osmesa|none", "auto", "where OpenGL comes from; none: without OpenGL"),
-    INTEGER_OPTION("threads", READS | ANG_VERB_PHANTOM, threads, 0, 256, "0", "processor threads; 0: all"),
+    {"backend", 0, CHOICE, ANG_VERB_SELFCHECK, FIELD(backend), "auto|egl|osmesa|none", 0, 0, "auto", NULL,
+     "which OpenGL to check; auto: every one that is here; none: only what needs none"},
+    TEXT_OPTION("cases", ANG_VERB_SELFCHECK, cases, "N,N,...", NULL, "check only the cases of these numbers"),
+    INTEGER_OPTION("threads", READS | ANG_VERB_PHANTOM | ANG_VERB_SELFCHECK, threads, 0, 256, "0",
+                   "processor threads; 0: all"),
     FLAG_OPTION("annotate", 0, ANG_VERB_RENDER, annotate,
                 "draw orientation letters, a millimetre bar, preset and mode"),
     FLAG_OPTION("strict", 0, READS, strict, "refuse input (exit code 4) where loading it gives a warning"),
@@ -126,6 +131,7 @@ static const option_spec table[] = {
     TEXT_OPTION("raw-type", READS, raw_type, "TYPE", NULL, "u8, i8, u16, i16 or f32, little endian"),
     TEXT_OPTION("raw-spacing", READS, raw_spacing, "X,Y,Z", NULL, "voxel spacing of raw input in mm; default 1,1,1"),
     TEXT_OPTION("json", ANG_VERB_RENDER, json, "FILE|-", NULL, "write what was done, its error and its cost as JSON"),
+    TEXT_OPTION("json", ANG_VERB_SELFCHECK, json, "FILE|-", NULL, "write the results as JSON; -: instead of the table"),
     FLAG_OPTION("json", 0, ANG_VERB_INFO | ANG_VERB_CHECK, json_flag, "print JSON to standard output"),
     TEXT_OPTION("dims", ANG_VERB_PHANTOM, dims, "XxYxZ", "512x512x96", "voxels of the phantom"),
     TEXT_OPTION("spacing", ANG_VERB_PHANTOM, spacing, "X,Y,Z", NULL,

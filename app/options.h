@@ -14,6 +14,7 @@ typedef enum ang_verb {
     ANG_VERB_PRESETS = 4,
     ANG_VERB_PHANTOM = 8,
     ANG_VERB_CHECK = 16,
+    ANG_VERB_SELFCHECK = 32,
 } ang_verb;
 
 /* The values, with the table's defaults where not given. Strings are borrowed from argv or from the table. */
@@ -22,6 +23,7 @@ typedef struct ang_options {
     const char *series, *preset, *method, *mode, *shading, *size, *view, *projection, *clip, *background;
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
         *skipping, *cut_plane, *measure;
+    const char *cases;
     double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory,
         threshold; /* NaN where not given and without default */
     int frames, repeat, threads, seed, pass_steps, quads;
