@@ -22,7 +22,9 @@ static double badness(const ang_measure *m) {
 
 void ang_bench_range(ang_bench *bench, double value, double low, double high, const char *format, ...) {
     ang_measure measure = {.value = value, .low = low, .high = high};
-    if (bench->worst.what[0] && !(badness(&measure) > badness(&bench->worst))) return;
+    double now = badness(&measure), before = badness(&bench->worst);
+    /* Among values that are equally good the last one says most: what every picture is asked comes first. */
+    if (bench->worst.what[0] && !(now > before || (now >= before && now <= 1))) return;
     va_list args;
     va_start(args, format);
     vsnprintf(measure.what, sizeof measure.what, format, args);
