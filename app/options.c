@@ -109,6 +109,10 @@ static const option_spec table[] = {
         "main memory)"),
     FLAG_OPTION("count-shown", 0, ANG_VERB_RENDER, count_shown,
                 "count only samples that show, in mode dvr without shading: the fewest that any method could take"),
+    TEXT_OPTION("force", ANG_VERB_RENDER, force, "LIST|all", NULL,
+                "use parts that the plan leaves out (see --explain), to prove that they change nothing: gradients, "
+                "exponential, colour, rounding, termination, skipping, descent, near-plane, directions, border, slabs, "
+                "redraw, gl"),
     FLAG_OPTION("explain", 0, ANG_VERB_RENDER, explain, "say what the picture takes and what is left out, and why"),
     FLAG_OPTION("manual-filter", 0, ANG_VERB_RENDER, manual_filter,
                 "interpolate in the shader instead of the texture unit, to verify filtering"),

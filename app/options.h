@@ -22,7 +22,7 @@ typedef struct ang_options {
     const char *output;
     const char *series, *preset, *method, *mode, *shading, *size, *view, *projection, *clip, *background;
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
-        *skipping, *cut_plane, *measure;
+        *skipping, *cut_plane, *measure, *force;
     const char *cases;
     double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory,
         threshold; /* NaN where not given and without default */

@@ -149,6 +149,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
                                : strcmp(options->skipping, "between") == 0 ? ANG_SKIP_BETWEEN
                                                                            : ANG_SKIP_BOTH;
     picture->render.count_shown = options->count_shown;
+    if (options->force && !ang_parts_parse(options->force, &picture->render.forced, err)) return false;
     picture->render.quads = options->quads;
     picture->render.show_bricks = options->show_bricks;
     picture->render.proxy = (ang_proxy)ang_proxy_from_name(options->proxy);

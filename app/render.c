@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/error/metrics.h"
 #include "core/render/context.h"
+#include "core/render/kept.h"
 #include "io/image/annotate.h"
 #include "io/image/image_io.h"
 #include "io/preset.h"
@@ -30,6 +31,7 @@ typedef struct session {
     const ang_method *method;
     ang_renderer *renderer;
     ang_image image;
+    ang_kept kept;
     float *counts; /* of each pixel, for --mode lookups */
     ang_render_summary summary;
 } session;
@@ -92,7 +94,8 @@ static bool open_renderer(session *run, ang_error *err) {
     bool automatic = strcmp(name, "auto") == 0;
     run->method = automatic ? NULL : ang_method_find(name);
     if (!automatic && !run->method) return ang_fail(err, ANG_USAGE, "--method %s: there is no such method", name);
-    bool wants_gl = automatic ? backend != ANG_BACKEND_NONE : run->method->needs_gl;
+    bool forced = run->picture.render.forced >> ANG_PART_GL & 1u;
+    bool wants_gl = automatic || forced ? backend != ANG_BACKEND_NONE : run->method->needs_gl;
     if (wants_gl && !open_gl(run, backend, err)) return false;
     if (automatic)
         run->method = ang_method_choose(run->gl, run->volume, &run->picture.scene, &run->picture.render, &why);
@@ -118,14 +121,18 @@ static bool update_frames(void *context, const char *what, double fraction) {
     return ang_progress_update(progress->sink, progress->what, (progress->frame + fraction) / progress->frames);
 }
 
-/* Counting samples costs time, so frames that are timed go without `stats`. */
+/* Counting samples costs time, so frames that are timed go without `stats`, and are drawn even where nothing has
+ * changed. */
 static bool render_frame(session *run, frame_progress *frames, ang_frame_stats *stats, double *milliseconds,
                          ang_error *err) {
     frames->sink = ang_app_progress_sink(run->progress);
     ang_progress progress = {update_frames, frames};
+    const ang_scene *scene = &run->picture.scene;
+    const ang_render_options *options = &run->picture.render;
     double start = ang_now_ms();
-    bool done = run->method->render(run->renderer, &run->picture.scene, &run->picture.render, &run->image, stats,
-                                    &progress, err);
+    bool done = stats ? ang_kept_render(&run->kept, run->method, run->renderer, scene, options, &run->image, stats,
+                                        &progress, err)
+                      : run->method->render(run->renderer, scene, options, &run->image, NULL, &progress, err);
     *milliseconds = ang_now_ms() - start;
     return done && (!run->gl || ang_gl_check(run->gl, err));
 }
@@ -161,8 +168,7 @@ static void note_empty(session *run) {
 static bool explain(session *run, ang_error *err) {
     ang_plan *plan = &run->summary.plan;
     if (!run->method->explain(run->renderer, &run->picture.scene, &run->picture.render, plan, err)) return false;
-    if (!run->method->needs_gl) ang_plan_leave_out(plan, "OpenGL", "this method needs none");
-    ang_plan_leave_out(plan, "window system", "headless");
+    ang_plan_leave_out_saving(plan, "window system", "headless", "a window and its libraries");
     if (!run->options->explain) return true;
     for (size_t i = 0; i < plan->uses.count; i++) fprintf(stderr, "uses      %s\n", plan->uses.item[i].what);
     for (size_t i = 0; i < plan->pass_count; i++) {
@@ -173,8 +179,11 @@ static bool explain(session *run, ang_error *err) {
         fprintf(stderr, "          vertex parts:   %.*s\n", vertex, pass->parts);
         if (pass->parts[vertex]) fprintf(stderr, "          fragment parts:%s\n", pass->parts + vertex + 1);
     }
-    for (size_t i = 0; i < plan->left_out.count; i++)
-        fprintf(stderr, "left out  %s: %s\n", plan->left_out.item[i].what, plan->left_out.item[i].why);
+    for (size_t i = 0; i < plan->left_out.count; i++) {
+        const ang_plan_item *item = &plan->left_out.item[i];
+        fprintf(stderr, "left out  %s: %s%s%s\n", item->what, item->why, item->saves ? "; saves " : "",
+                item->saves ? item->saves : "");
+    }
     return true;
 }
 
@@ -264,6 +273,11 @@ static bool render_all(session *run, ang_error *err) {
         ang_frame_stats stats = {.counts = run->counts};
         if (!render_frame(run, &progress, &stats, &milliseconds, err)) return false;
         if (stats.note) ang_notes_add(&run->summary.warnings, "%s", stats.note);
+        if (run->kept.given && frame == 1) {
+            ang_plan_facts facts = {.same_as_before = true};
+            ang_plan_decisions decisions = ang_plan_decide(&facts);
+            ang_plan_explain_part(&decisions, ANG_PART_REDRAW, &run->summary.plan);
+        }
         if (frame == 0) {
             run->summary.first_frame_ms = milliseconds;
             run->summary.stats = stats;
@@ -360,6 +374,7 @@ int ang_app_render(const ang_options *options, ang_error *err) {
     if (run.method && run.renderer) run.method->destroy(run.renderer);
     if (run.gl) ang_gl_destroy(run.gl);
     ang_image_clear(&run.image);
+    ang_kept_clear(&run.kept);
     free(run.counts);
     ang_picture_clear(&run.picture);
     ang_plan_clear(&run.summary.plan);

@@ -34,6 +34,7 @@ static cJSON *items_json(const ang_plan_items *items) {
         cJSON *entry = cJSON_CreateObject();
         cJSON_AddStringToObject(entry, "what", item->what);
         cJSON_AddStringToObject(entry, "why", item->why);
+        if (item->saves) cJSON_AddStringToObject(entry, "saves", item->saves);
         cJSON_AddItemToArray(list, entry);
     }
     return list;

@@ -1,5 +1,4 @@
 // The transfer function's table (core/transfer/tables.h): two entries an interval, r, g, b and extinction per mm.
-uniform samplerBuffer transfer_table;
 uniform float transfer_first;     // stored value
 uniform float transfer_per_value; // intervals in one stored value
 uniform int transfer_intervals;
@@ -9,5 +8,5 @@ vec4 transfer_at(float stored) {
     float interval = clamp(floor(x), 0.0, float(transfer_intervals - 1));
     float inside = clamp(x - interval, 0.0, 1.0);
     int entry = 2 * int(interval);
-    return mix(texelFetch(transfer_table, entry), texelFetch(transfer_table, entry + 1), inside);
+    return mix(transfer_entry(entry), transfer_entry(entry + 1), inside);
 }

@@ -11,21 +11,22 @@ static char *format_text(const char *format, va_list args) {
 }
 
 /* Takes the strings over. */
-static void add(ang_plan_items *items, char *what, char *why) {
+static void add(ang_plan_items *items, char *what, char *why, char *saves) {
     ang_plan_item *grown = what ? realloc(items->item, (items->count + 1) * sizeof *grown) : NULL;
     if (!grown) {
         free(what);
         free(why);
+        free(saves);
         return;
     }
     items->item = grown;
-    grown[items->count++] = (ang_plan_item){what, why};
+    grown[items->count++] = (ang_plan_item){what, why, saves};
 }
 
 void ang_plan_use(ang_plan *plan, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    add(&plan->uses, format_text(format, args), NULL);
+    add(&plan->uses, format_text(format, args), NULL, NULL);
     va_end(args);
 }
 
@@ -34,7 +35,12 @@ void ang_plan_leave_out(ang_plan *plan, const char *what, const char *format, ..
     va_start(args, format);
     char *why = format_text(format, args);
     va_end(args);
-    add(&plan->left_out, why ? strdup(what) : NULL, why);
+    add(&plan->left_out, why ? strdup(what) : NULL, why, NULL);
+}
+
+void ang_plan_leave_out_saving(ang_plan *plan, const char *what, const char *why, const char *saves) {
+    char *reason = strdup(why);
+    add(&plan->left_out, reason ? strdup(what) : NULL, reason, saves && *saves ? strdup(saves) : NULL);
 }
 
 void ang_plan_add_pass(ang_plan *plan, const char *name, const char *parts, int lookups) {
@@ -53,6 +59,7 @@ static void clear_items(ang_plan_items *items) {
     for (size_t i = 0; i < items->count; i++) {
         free(items->item[i].what);
         free(items->item[i].why);
+        free(items->item[i].saves);
     }
     free(items->item);
 }

@@ -8,6 +8,7 @@
 /* Something in use, or left out and why. */
 typedef struct ang_plan_item {
     char *what, *why; /* `why` is NULL for what is in use */
+    char *saves;      /* what leaving it out spares; NULL where that is not known */
 } ang_plan_item;
 
 typedef struct ang_plan_items {
@@ -32,6 +33,8 @@ typedef struct ang_plan {
 void ang_plan_use(ang_plan *plan, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ang_plan_leave_out(ang_plan *plan, const char *what, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* The same with what leaving it out spares, in words; "" or NULL where that is not known. Copies the strings. */
+void ang_plan_leave_out_saving(ang_plan *plan, const char *what, const char *why, const char *saves);
 /* Copies both strings. */
 void ang_plan_add_pass(ang_plan *plan, const char *name, const char *parts, int lookups);
 /* Frees what it holds and makes it empty. */

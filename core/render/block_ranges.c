@@ -64,9 +64,13 @@ static bool make(ang_block_ranges *ranges, const ang_volume *volume, int threads
 
 static void count_shown(ang_block_ranges *ranges) {
     ranges->shown = 0;
-    for (size_t i = 0; i < ranges->blocks; i++)
-        ranges->shown +=
-            ranges->table[ang_block_entry(ranges->lowest, ranges->highest, ranges->octree->level[0].nodes[i])] > 0;
+    ranges->box = ang_block_box_none();
+    for (size_t i = 0; i < ranges->blocks; i++) {
+        ang_minmax range = ranges->octree->level[0].nodes[i];
+        if (!ranges->table[ang_block_entry(ranges->lowest, ranges->highest, range)]) continue;
+        ranges->shown++;
+        ang_block_box_add(&ranges->box, ranges->octree, i);
+    }
 }
 
 bool ang_block_ranges_update(ang_block_ranges *ranges, ang_gl *gl, const ang_volume *volume,

@@ -3,6 +3,7 @@
 #ifndef ANG_RENDER_BLOCK_RANGES_H
 #define ANG_RENDER_BLOCK_RANGES_H
 
+#include "core/plan/block_box.h"
 #include "core/plan/visibility.h"
 #include "core/render/context.h"
 #include "core/render/program.h"
@@ -19,6 +20,7 @@ typedef struct ang_block_ranges {
     uint16_t lowest;          /* the least stored value of the volume, padding included... */
     uint16_t highest;         /* ... and the greatest */
     size_t blocks, shown;     /* all, and those that the table says show something */
+    ang_block_box box;        /* of those that show something */
     double build_ms;          /* of the last update: the octree */
     uint64_t tables_uploaded; /* rises when the table changes */
 } ang_block_ranges;

@@ -2,6 +2,7 @@
  * envelope image-order skipping, which that text leaves to others. */
 #include "core/render/context_private.h"
 #include "core/render/envelope_hull.h"
+#include "core/render/facts.h"
 #include "core/render/gradient_texture.h"
 #include "core/render/ray_pass.h"
 #include "core/render/scene_parts.h"
@@ -20,7 +21,6 @@ static const size_t most_faces_software = 600, most_faces = 65536;
 
 /* Of a texture of gradients that nobody has asked for. */
 static const size_t most_gradient_bytes = (size_t)2 << 30;
-static const char no_gradient_memory[] = "there is no memory for it";
 
 struct ang_renderer {
     ang_ray_pass pass;
@@ -35,10 +35,16 @@ struct ang_renderer {
 typedef struct decision {
     ang_ray_frame frame;
     ang_visibility visibility;
-    bool skips, bounds, inside, gradients;
-    const char *why_no_skip, *why_no_bounds, *why_no_gradients;
+    ang_plan_facts facts;
+    ang_plan_decisions plan;
+    int first[3], end[3]; /* voxels that may be sampled */
+    double upload_ms;
     const ang_renderer *renderer;
 } decision;
+
+static bool uses(const decision *d, ang_part part) { return ang_plan_uses(&d->plan, part); }
+/* Whether rays are bounded by the box of what shows, where no faces do it. */
+static bool is_boxed(const decision *d) { return !uses(d, ANG_PART_HULL) && !uses(d, ANG_PART_BORDER); }
 
 static void destroy(ang_renderer *renderer) {
     if (!renderer) return;
@@ -56,122 +62,122 @@ static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_rend
     return NULL;
 }
 
-/* Whether a ray may start inside the volume: the near plane reaches into the clip box. */
-static bool may_start_inside(const ang_ray_frame *frame) {
-    for (int corner = 0; corner < 8; corner++) {
-        ang_vec3 at = {corner & 1 ? frame->upper.x : frame->lower.x, corner & 2 ? frame->upper.y : frame->lower.y,
-                       corner & 4 ? frame->upper.z : frame->lower.z};
-        ang_vec3 from = ang_vec3_sub(ang_mat4_direction(&frame->to_mm, at), frame->origin_mm);
-        if (ang_vec3_dot(from, frame->axis_mm) < frame->near_depth + 1e-3 * fabs(frame->near_depth)) return true;
-    }
-    return false;
-}
-
-/* A texture of gradients pays where samples are shaded and many blocks need none. */
-static bool decide_gradients(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
-                             decision *d, ang_error *err) {
+/* The grid of blocks, where they may be skipped or bound the rays. */
+static bool build_grid(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
     const ang_volume *volume = renderer->pass.volume;
-    if (scene->mode != ANG_MODE_DVR || scene->shading != ANG_SHADING_PHONG)
-        d->why_no_gradients =
-            scene->mode == ANG_MODE_ISO ? "an iso-surface is shaded once a pixel" : "nothing is shaded";
-    else if (options->manual_filter)
-        d->why_no_gradients = "--manual-filter";
-    else if (options->gradients == ANG_GRADIENTS_LOOKUPS)
-        d->why_no_gradients = "--gradients lookups";
-    else if (!d->skips)
-        d->why_no_gradients = "rays do not skip, and it is made for visible blocks alone";
-    else if (options->gpu_memory &&
-             ang_gradient_texture_bytes(volume) + 2 * ang_volume_count(volume) > options->gpu_memory)
-        d->why_no_gradients = "--gpu-memory does not hold it";
-    else if (options->gradients == ANG_GRADIENTS_AUTO && ang_gradient_texture_bytes(volume) > most_gradient_bytes)
-        d->why_no_gradients = "it would take more than 2 GB; --gradients texture makes it all the same";
-    else if (renderer->gradients_refused)
-        d->why_no_gradients = no_gradient_memory;
-    else if (!ang_gradient_texture_fits(volume))
-        d->why_no_gradients = "it is larger than one texture of this OpenGL may be";
-    d->gradients = !d->why_no_gradients;
-    renderer->gradients.build_ms = 0;
-    ang_error lack = {0};
-    if (!d->gradients || ang_gradient_texture_update(&renderer->gradients, renderer->pass.gl, volume, &renderer->grid,
-                                                     options->threads, &lack))
-        return true;
-    if (lack.code != ANG_LIMIT) return ang_fail(err, lack.code, "%s", lack.message);
-    ang_gradient_texture_destroy(&renderer->gradients);
-    renderer->gradients_refused = true;
-    d->gradients = false;
-    d->why_no_gradients = no_gradient_memory;
+    ang_gl *gl = renderer->pass.gl;
+    const ang_volume_texture *field = d->facts.software ? NULL : &renderer->pass.field;
+    if (field && !ang_ray_pass_hold(&renderer->pass, NULL, NULL, &d->upload_ms, err)) return false;
+    if (!ang_skip_grid_update(&renderer->grid, gl, volume, field, &d->visibility, options->threads, err)) return false;
+    d->facts.blocks = renderer->grid.blocks;
+    d->facts.shown = renderer->grid.visible_blocks;
     return true;
 }
 
-static bool decide_skipping(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
-                            decision *d, ang_error *err) {
-    const ang_volume *volume = renderer->pass.volume;
-    d->visibility = ang_visibility_make(volume, scene, renderer->pass.table.tables);
-    renderer->grid.build_ms = 0;
-    if (options->no_skip)
-        d->why_no_skip = "--no-skip";
-    else if (scene->mode == ANG_MODE_MEAN)
-        d->why_no_skip = "every value counts in a mean";
-    d->why_no_bounds = d->why_no_skip;
-    if (d->why_no_skip) return true;
-    const ang_volume_texture *field = ang_gl_is_software(renderer->pass.gl) ? NULL : &renderer->pass.field;
-    if (!ang_skip_grid_update(&renderer->grid, renderer->pass.gl, volume, field, &d->visibility, options->threads, err))
-        return false;
-    if (renderer->grid.visible_blocks == renderer->grid.blocks) {
-        d->why_no_skip = d->why_no_bounds = "no block of the volume is invisible";
-        return true;
-    }
-    d->skips = options->skipping != ANG_SKIP_OUTSIDE;
-    if (!d->skips) d->why_no_skip = "--skipping outside";
-    if (options->skipping == ANG_SKIP_BETWEEN) {
-        d->why_no_bounds = "--skipping between";
-        return true;
-    }
-    ang_clip_space space = ang_clip_space_make(&d->frame, scene->width, scene->height);
-    if (!ang_clip_space_ahead(&space, d->frame.lower, d->frame.upper)) {
-        d->why_no_bounds =
-            "the eye is in or beside the volume, where faces would be clipped; the clip box bounds the rays";
-        return true;
-    }
-    size_t budget = ang_gl_is_software(renderer->pass.gl) ? most_faces_software : most_faces;
+static bool build_hull(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
+    size_t budget = d->facts.software ? most_faces_software : most_faces;
     if (options->quads > 0) budget = (size_t)options->quads;
     if (!ang_envelope_hull_update(&renderer->hull, renderer->pass.gl, &renderer->grid, &d->frame, budget, err))
         return false;
-    d->bounds = renderer->hull.cells.side > 0;
-    if (!d->bounds) d->why_no_bounds = "its faces would be more than the budget allows; the clip box bounds the rays";
-    d->inside = d->bounds && may_start_inside(&d->frame);
+    d->facts.hull_fits = renderer->hull.cells.side > 0;
     return true;
 }
 
+/* Where there is no memory for them they are looked up. */
+static bool build_gradients(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
+    ang_error lack = {0};
+    if (!uses(d, ANG_PART_GRADIENT_TEXTURE) ||
+        ang_gradient_texture_update(&renderer->gradients, renderer->pass.gl, renderer->pass.volume, &renderer->grid,
+                                    options->threads, &lack))
+        return true;
+    if (lack.code != ANG_LIMIT) return ang_fail(err, lack.code, "%s", lack.message);
+    ang_gradient_texture_destroy(&renderer->gradients);
+    renderer->gradients_refused = d->facts.gradients_refused = true;
+    d->plan = ang_plan_decide(&d->facts);
+    return true;
+}
+
+/* What the rays may sample: visible blocks, and the sample after one. An iso-surface looks at the entry of rays as
+ * well. */
+static void find_sampled(const ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                         decision *d) {
+    const ang_volume *volume = renderer->pass.volume;
+    d->facts.texture_shared = d->facts.software && scene->mode != ANG_MODE_ISO;
+    if (!renderer->grid.octree || !d->facts.texture_shared) return;
+    ang_vec3 margin = ang_facts_margin(&d->frame, 2.02 * ang_ray_step(volume, options));
+    margin = ang_vec3_add(margin, (ang_vec3){1, 1, 1});
+    d->facts.share_uploaded =
+        ang_block_box_voxels(&renderer->grid.box, renderer->grid.octree, volume, margin, d->first, d->end);
+    if (!uses(d, ANG_PART_GRADIENT_TEXTURE)) return;
+    d->facts.share_uploaded = 0;
+    for (int axis = 0; axis < 3; axis++) d->end[axis] = d->first[axis];
+}
+
+/* Decides as far as is known, builds what that takes, and decides again. */
 static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, decision *d,
                    ang_error *err) {
+    const ang_volume *volume = renderer->pass.volume;
     *d = (decision){.renderer = renderer};
-    return ang_ray_pass_prepare(&renderer->pass, scene, options, &d->frame, err) &&
-           decide_skipping(renderer, scene, options, d, err) && decide_gradients(renderer, scene, options, d, err);
+    renderer->grid.build_ms = renderer->gradients.build_ms = 0;
+    if (!ang_ray_pass_prepare(&renderer->pass, scene, options, &d->frame, err)) return false;
+    d->visibility = ang_visibility_make(volume, scene, renderer->pass.table.tables);
+    d->facts = ang_ray_pass_facts(&renderer->pass, ANG_DRAW_ENVELOPE, scene, options, &d->frame);
+    d->facts.gradient_bytes = (double)ang_gradient_texture_bytes(volume);
+    d->facts.gradient_limit = (double)most_gradient_bytes;
+    d->facts.gradients_refused = renderer->gradients_refused;
+    d->plan = ang_plan_decide(&d->facts);
+    bool blocks = uses(d, ANG_PART_SKIPPING) || uses(d, ANG_PART_HULL) || !uses(d, ANG_PART_BORDER);
+    if (blocks && !build_grid(renderer, options, d, err)) return false;
+    d->plan = ang_plan_decide(&d->facts);
+    if (uses(d, ANG_PART_HULL) && !build_hull(renderer, options, d, err)) return false;
+    if (uses(d, ANG_PART_GRADIENT_TEXTURE)) d->facts.gradients_fit = ang_gradient_texture_fits(volume);
+    d->plan = ang_plan_decide(&d->facts);
+    if (!build_gradients(renderer, options, d, err)) return false;
+    find_sampled(renderer, scene, options, d);
+    d->plan = ang_plan_decide(&d->facts);
+    return true;
 }
 
 static void add_parts(const void *context, ang_shader_source *source) {
     const decision *d = context;
-    if (!d->bounds) {
+    if (uses(d, ANG_PART_BORDER)) {
         ANG_SHADER_ADD(source, bounds_box);
+    } else if (is_boxed(d)) {
+        ANG_SHADER_ADD(source, bounds_shown);
     } else {
-        if (d->inside)
+        if (uses(d, ANG_PART_NEAR_PLANE))
             ANG_SHADER_ADD(source, envelope_inside);
         else
             ANG_SHADER_ADD(source, envelope_outside);
         ANG_SHADER_ADD(source, bounds_envelope);
     }
-    if (d->skips)
+    if (uses(d, ANG_PART_SKIPPING))
         ANG_SHADER_ADD(source, skip_distance);
     else
         ANG_SHADER_ADD(source, skip_none);
 }
 
+/* bounds_shown.glsl: half a voxel more on each side for rounding. */
+static void bind_box(const ang_skip_grid *grid, unsigned program) {
+    double lower[3], upper[3];
+    for (int axis = 0; axis < 3; axis++) {
+        /* The first cell of the box begins at the first voxel, or half a voxel before it where there is only one. */
+        double start = -0.5 * grid->octree->cells[axis], leaf = grid->octree->leaf[axis];
+        lower[axis] = start + grid->box.first[axis] * leaf - 0.5;
+        upper[axis] = start + grid->box.end[axis] * leaf + 0.5;
+        if (grid->box.end[axis] <= grid->box.first[axis]) lower[axis] = upper[axis] = 1e9;
+    }
+    ang_uniform_vec3(program, "shown_lower", (ang_vec3){lower[0], lower[1], lower[2]});
+    ang_uniform_vec3(program, "shown_upper", (ang_vec3){upper[0], upper[1], upper[2]});
+}
+
 static void set_uniforms(const void *context, unsigned program, const ang_ray_frame *frame) {
     const decision *d = context;
-    if (d->skips) ang_skip_grid_bind(&d->renderer->grid, program, UNIT_GRID, frame->centre);
-    if (d->bounds) ang_envelope_hull_bind(&d->renderer->hull, program, UNIT_RANGE);
-    if (d->gradients) ang_gradient_texture_bind(&d->renderer->gradients, program, UNIT_GRADIENTS);
+    const ang_renderer *renderer = d->renderer;
+    if (uses(d, ANG_PART_SKIPPING)) ang_skip_grid_bind(&renderer->grid, program, UNIT_GRID, frame->centre);
+    if (uses(d, ANG_PART_HULL)) ang_envelope_hull_bind(&renderer->hull, program, UNIT_RANGE);
+    if (is_boxed(d)) bind_box(&renderer->grid, program);
+    if (uses(d, ANG_PART_GRADIENT_TEXTURE)) ang_gradient_texture_bind(&renderer->gradients, program, UNIT_GRADIENTS);
 }
 
 static void compose_range(ang_shader_source *vertex, ang_shader_source *fragment) {
@@ -191,70 +197,66 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
     decision d;
     if (!decide(renderer, scene, options, &d, err)) return false;
-    if (d.bounds && !draw_range(renderer, scene, &d, err)) return false;
+    bool bounds = uses(&d, ANG_PART_HULL), skips = uses(&d, ANG_PART_SKIPPING);
+    bool whole = uses(&d, ANG_PART_SLABS);
+    if (!ang_ray_pass_hold(&renderer->pass, whole ? NULL : d.first, d.end, &d.upload_ms, err)) return false;
+    if (bounds && !draw_range(renderer, scene, &d, err)) return false;
     const ang_skip_grid *grid = &renderer->grid;
-    bool refused = options->gradients == ANG_GRADIENTS_TEXTURE && d.why_no_gradients;
+    const ang_decision *gradients = &d.plan.part[ANG_PART_GRADIENT_TEXTURE];
+    bool refused = options->gradients == ANG_GRADIENTS_TEXTURE && gradients->why;
     if (refused)
         snprintf(renderer->note, sizeof renderer->note, "--gradients texture: gradients are looked up, since %s",
-                 d.why_no_gradients);
+                 gradients->why);
     if (stats)
         *stats = (ang_frame_stats){.counts = stats->counts,
-                                   .bricks_drawn = d.skips || d.bounds ? grid->visible_blocks : 1,
-                                   .bricks_total = d.skips || d.bounds ? grid->blocks : 1,
-                                   .polygons = d.bounds ? renderer->hull.faces : 0,
-                                   .passes = d.bounds ? 2 : 1,
+                                   .bricks_drawn = skips || bounds ? grid->visible_blocks : 1,
+                                   .bricks_total = skips || bounds ? grid->blocks : 1,
+                                   .polygons = bounds ? renderer->hull.faces : 0,
+                                   .passes = bounds ? 2 : 1,
                                    .octree_ms = grid->build_ms,
-                                   .upload_ms = renderer->gradients.build_ms,
+                                   .upload_ms = d.upload_ms + renderer->gradients.build_ms,
                                    .note = refused ? renderer->note : NULL};
-    const ang_ray_limits limits = {add_parts, set_uniforms, &d, d.skips, d.gradients};
+    const ang_ray_limits limits = {add_parts, set_uniforms, &d, uses(&d, ANG_PART_GRADIENT_TEXTURE), &d.plan};
     return ang_ray_pass_draw(&renderer->pass, scene, options, &d.frame, &limits, image, stats, progress, err);
 }
 
-static void explain_skipping(const ang_renderer *renderer, const decision *d, ang_plan *plan) {
+static void explain_blocks(const ang_renderer *renderer, const decision *d, ang_plan *plan) {
     const ang_skip_grid *grid = &renderer->grid;
-    if (!d->skips) {
-        ang_plan_leave_out(plan, "skipping of invisible blocks", "%s", d->why_no_skip);
-    } else {
+    bool skips = uses(d, ANG_PART_SKIPPING), bounds = uses(d, ANG_PART_HULL);
+    if (skips)
         ang_plan_use(plan,
                      "skipping by the distance to the next visible block: %zu of %zu blocks of %d cells a side "
                      "show",
                      grid->visible_blocks, grid->blocks, ANG_SKIP_BLOCK);
-        if (ang_gl_is_software(renderer->pass.gl))
-            ang_plan_leave_out(plan, "ranges of blocks by compute shader", "without a GPU the processor is faster");
-        else
-            ang_plan_use(plan, "ranges of blocks by compute shader");
-        if (grid->visible_blocks < grid->blocks)
-            ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s",
-                               grid->blocks - grid->visible_blocks, grid->blocks,
-                               ang_visibility_reason(d->visibility.mode));
-    }
-    if (!d->bounds) {
-        ang_plan_leave_out(plan, "envelope of what shows", "%s", d->why_no_bounds);
-        return;
-    }
+    if (skips && d->facts.software)
+        ang_plan_leave_out(plan, "ranges of blocks by compute shader", "without a GPU the processor is faster");
+    else if (skips)
+        ang_plan_use(plan, "ranges of blocks by compute shader");
+    if (skips && grid->visible_blocks < grid->blocks)
+        ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s", grid->blocks - grid->visible_blocks,
+                           grid->blocks, ang_visibility_reason(d->visibility.mode));
     int side = ANG_SKIP_BLOCK * renderer->hull.cells.side;
-    ang_plan_use(plan, "envelope of what shows: %zu faces of cells of %dx%dx%d", renderer->hull.faces, side, side,
-                 side);
-    if (!d->inside)
-        ang_plan_leave_out(plan, "rays that start inside the envelope", "the near plane lies before the whole volume");
+    if (bounds)
+        ang_plan_use(plan, "envelope of what shows: %zu faces of cells of %dx%dx%d", renderer->hull.faces, side, side,
+                     side);
+    else if (is_boxed(d))
+        ang_plan_use(plan, "the box of what shows bounds the rays");
+    if (uses(d, ANG_PART_GRADIENT_TEXTURE))
+        ang_plan_use(plan, "texture of gradients: %zu blocks filled, %.1f MB", renderer->gradients.blocks_filled,
+                     (double)renderer->gradients.bytes / 1e6);
 }
 
 static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
                     ang_error *err) {
     decision d;
     if (!decide(renderer, scene, options, &d, err)) return false;
-    explain_skipping(renderer, &d, plan);
-    if (d.gradients)
-        ang_plan_use(plan, "texture of gradients: %zu blocks filled, %.1f MB", renderer->gradients.blocks_filled,
-                     (double)renderer->gradients.bytes / 1e6);
-    else
-        ang_plan_leave_out(plan, "texture of gradients", "%s", d.why_no_gradients);
-    if (d.bounds) {
+    explain_blocks(renderer, &d, plan);
+    if (uses(&d, ANG_PART_HULL)) {
         ang_shader_source vertex, fragment;
         compose_range(&vertex, &fragment);
         ang_shader_explain(plan, "range of each ray in the envelope", &vertex, &fragment, 0);
     }
-    const ang_ray_limits limits = {add_parts, set_uniforms, &d, d.skips, d.gradients};
+    const ang_ray_limits limits = {add_parts, set_uniforms, &d, uses(&d, ANG_PART_GRADIENT_TEXTURE), &d.plan};
     ang_ray_pass_explain(&renderer->pass, scene, options, &limits, plan);
     return true;
 }

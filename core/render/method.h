@@ -3,18 +3,12 @@
 #define ANG_RENDER_METHOD_H
 
 #include "core/base/progress.h"
-#include "core/plan/plan.h"
+#include "core/plan/decide.h"
 #include "core/proxy/proxy.h"
 #include "core/scene/image.h"
 #include "core/scene/scene.h"
 
 #include <stdint.h>
-
-/* Where the gradients of Phong shading come from. */
-typedef enum ang_gradients { ANG_GRADIENTS_AUTO, ANG_GRADIENTS_LOOKUPS, ANG_GRADIENTS_TEXTURE } ang_gradients;
-
-/* What envelope leaves out of rays: what lies outside the faces, what lies between visible blocks, or both. */
-typedef enum ang_skipping { ANG_SKIP_BOTH, ANG_SKIP_OUTSIDE, ANG_SKIP_BETWEEN } ang_skipping;
 
 /* How a picture is made, as far as it does not change what it shows. */
 typedef struct ang_render_options {
@@ -36,6 +30,7 @@ typedef struct ang_render_options {
     int quads;               /* envelope: most faces; default 0: as many as pay */
     bool count_shown;        /* singlepass, envelope in mode dvr without shading by lookups: count only samples that
                                 show, the fewest that any method could take; default false */
+    unsigned forced;         /* bits 1 << ang_part: used although the plan would leave them out; default 0 */
     int threads;             /* 0: all */
 } ang_render_options;
 extern const ang_render_options ang_render_options_default;

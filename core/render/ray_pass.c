@@ -1,6 +1,8 @@
 #include "core/render/ray_pass.h"
 
+#include "core/base/clock.h"
 #include "core/base/memory.h"
+#include "core/render/facts.h"
 #include "core/render/scene_parts.h"
 
 #include <glad/gl.h>
@@ -37,11 +39,18 @@ bool ang_ray_pass_make(ang_ray_pass *pass, const char *method, ang_gl *gl, const
     if (!gl)
         return ang_fail(err, ANG_GL, "--method %s needs OpenGL: choose another --backend, or --method reference",
                         method);
-    if (!ang_volume_texture_create(&pass->field, gl, volume, err)) return false;
+    if (!ang_volume_texture_reserve(&pass->field, gl, volume, err)) return false;
     glGenVertexArrays(1, &pass->vertices);
-    /* Until the volume has arrived, so that callers can time it. */
-    glFinish();
     return true;
+}
+
+bool ang_ray_pass_hold(ang_ray_pass *pass, const int *first, const int *end, double *took, ang_error *err) {
+    static const int origin[3] = {0, 0, 0};
+    double start = ang_now_ms();
+    bool ok = ang_volume_texture_hold(&pass->field, pass->gl, pass->volume, first ? first : origin,
+                                      first ? end : pass->volume->dims, err);
+    *took += ang_now_ms() - start;
+    return ok;
 }
 
 /* Millimetres between samples. */
@@ -66,10 +75,9 @@ static ang_shader_source compose(const ang_ray_pass *pass, const ang_scene *scen
     ang_parts_ray(&source, scene, true);
     ANG_SHADER_ADD(&source, lattice);
     ang_parts_field(&source, kind);
-    ang_parts_classification(&source, scene, kind);
+    ang_parts_classification(&source, scene, kind, limits->decisions);
     limits->parts(limits->context, &source);
-    ang_parts_march(&source, scene, volume, kind, &pass->table, 1.01 * ang_ray_step(volume, options),
-                    limits->skips || !may_seek(volume, options), options->count_shown);
+    ang_parts_march(&source, scene, volume, kind, limits->decisions, may_seek(volume, options), options->count_shown);
     if (counting)
         ANG_SHADER_ADD(&source, picture_counted);
     else
@@ -104,6 +112,12 @@ bool ang_ray_pass_prepare(ang_ray_pass *pass, const ang_scene *scene, const ang_
             pass->method);
     return !ang_scene_needs_weight(scene, pass->volume) ||
            ang_volume_texture_add_weight(&pass->field, pass->gl, pass->volume, err);
+}
+
+ang_plan_facts ang_ray_pass_facts(const ang_ray_pass *pass, ang_drawing drawing, const ang_scene *scene,
+                                  const ang_render_options *options, const ang_ray_frame *frame) {
+    return ang_facts_make(drawing, pass->gl, pass->volume, scene, options, frame, &pass->table,
+                          1.01 * ang_ray_step(pass->volume, options));
 }
 
 /* Draws and reads the picture band by band. */
@@ -171,9 +185,7 @@ bool ang_ray_pass_draw(ang_ray_pass *pass, const ang_scene *scene, const ang_ren
 void ang_ray_pass_explain(const ang_ray_pass *pass, const ang_scene *scene, const ang_render_options *options,
                           const ang_ray_limits *limits, ang_plan *plan) {
     ang_plan_use(plan, "one 3D texture of 16 bits for the whole volume");
-    ang_scene_explain(plan, scene, pass->volume);
-    if (scene->mode == ANG_MODE_DVR && !(options->termination < 1))
-        ang_plan_leave_out(plan, "early termination", "rays are not to end early");
+    ang_scene_explain(plan, scene, pass->volume, limits->decisions);
     ang_shader_source vertex = compose_vertex();
     ang_shader_source fragment = compose(pass, scene, options, limits, false);
     ang_shader_explain(plan, "rays", &vertex, &fragment,

@@ -15,7 +15,7 @@ typedef struct ang_ray_pass {
     const char *method; /* its name, for messages */
     ang_gl *gl;
     const ang_volume *volume;
-    ang_volume_texture field;
+    ang_volume_texture field; /* holds what ang_ray_pass_hold was asked for */
     ang_table_texture table;
     ang_limit_texture limits; /* opaque geometry */
     ang_programs programs;
@@ -28,11 +28,12 @@ typedef struct ang_ray_limits {
     void (*parts)(const void *context, ang_shader_source *source);
     void (*uniforms)(const void *context, unsigned program, const ang_ray_frame *frame);
     const void *context;
-    bool skips;     /* a part skips */
     bool gradients; /* values and gradients from ang_gradient_texture, whose uniforms are set with the others */
+    const ang_plan_decisions *decisions;
 } ang_ray_limits;
 
-/* Uploads the volume. False with ANG_GL where `gl` is NULL, and with ANG_LIMIT. */
+/* Makes room for the volume, whose voxels ang_ray_pass_hold uploads. False with ANG_GL where `gl` is NULL, and with
+ * ANG_LIMIT. */
 bool ang_ray_pass_make(ang_ray_pass *pass, const char *method, ang_gl *gl, const ang_volume *volume,
                        const ang_render_options *options, ang_error *err);
 void ang_ray_pass_destroy(ang_ray_pass *pass);
@@ -41,6 +42,11 @@ void ang_ray_pass_destroy(ang_ray_pass *pass);
  * explaining alike. False as ang_method's `render`. */
 bool ang_ray_pass_prepare(ang_ray_pass *pass, const ang_scene *scene, const ang_render_options *options,
                           ang_ray_frame *frame, ang_error *err);
+/* The facts of what has been prepared. */
+ang_plan_facts ang_ray_pass_facts(const ang_ray_pass *pass, ang_drawing drawing, const ang_scene *scene,
+                                  const ang_render_options *options, const ang_ray_frame *frame);
+/* Uploads voxels [first, end) where they are not there yet; `first` NULL: all. Adds the ms that it took to `took`. */
+bool ang_ray_pass_hold(ang_ray_pass *pass, const int *first, const int *end, double *took, ang_error *err);
 /* Draws what has been prepared, band by band, and reads it; `stats` may be NULL, else its samples, fragments and step
  * are set. False with ANG_LIMIT, ANG_GL, ANG_INTERRUPTED. */
 bool ang_ray_pass_draw(ang_ray_pass *pass, const ang_scene *scene, const ang_render_options *options,

@@ -54,22 +54,23 @@ static unsigned make_texture(GLenum format, int width, int height) {
 }
 
 /* The textures of the rays, as large as the accumulated target. */
-static bool resize_paths(ang_raycast_paths *paths, const ang_target *target, bool joined) {
+static bool resize_paths(ang_raycast_paths *paths, const ang_target *target, bool directions, bool joined) {
     if (paths->width != target->width || paths->height != target->height) destroy_paths(paths);
     paths->width = target->width;
     paths->height = target->height;
     if (!paths->framebuffer) {
         glGenFramebuffers(1, &paths->framebuffer);
         paths->entry = make_texture(GL_RGBA32F, paths->width, paths->height);
-        paths->direction = make_texture(GL_RGBA32F, paths->width, paths->height);
     }
+    if (directions && !paths->direction) paths->direction = make_texture(GL_RGBA32F, paths->width, paths->height);
     if (joined && !paths->wake) paths->wake = make_texture(GL_R32F, paths->width, paths->height);
     glBindFramebuffer(GL_FRAMEBUFFER, paths->framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, paths->entry, 0);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, paths->direction, 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, directions ? paths->direction : 0, 0);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT2, GL_TEXTURE_2D, joined ? paths->wake : 0, 0);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target->depth);
-    const GLenum outputs[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, joined ? GL_COLOR_ATTACHMENT2 : GL_NONE};
+    const GLenum outputs[] = {GL_COLOR_ATTACHMENT0, directions ? GL_COLOR_ATTACHMENT1 : GL_NONE,
+                              joined ? GL_COLOR_ATTACHMENT2 : GL_NONE};
     glDrawBuffers(3, outputs);
     return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
@@ -93,7 +94,8 @@ static bool resize(ang_renderer *renderer, const ang_raycast *r, bool counting, 
         (ang_raycast_has(r, ANG_RAYCAST_RESOLVE) &&
          !ang_target_resize(&renderer->resolved, gl, width, height, surface ? counts : 0, err)))
         return false;
-    bool complete = resize_paths(&renderer->paths, &renderer->pass.target, r->joined);
+    bool complete =
+        resize_paths(&renderer->paths, &renderer->pass.target, ang_plan_uses(&r->plan, ANG_PART_DIRECTIONS), r->joined);
     if (!ang_gl_check(gl, err)) return false;
     return complete || ang_fail(err, ANG_LIMIT,
                                 "rays of %dx%d pixels in floats: this OpenGL (%s) refuses them; give a smaller --size",
@@ -302,6 +304,8 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     ang_raycast r;
     ang_frame_stats done = {.counts = stats ? stats->counts : NULL};
     bool ok = ang_raycast_decide(renderer, scene, options, &r, err) &&
+              ang_ray_pass_hold(&renderer->pass, ang_plan_uses(&r.plan, ANG_PART_SLABS) ? NULL : r.first, r.end,
+                                &r.upload_ms, err) &&
               draw_all(renderer, &r, image, stats != NULL, &done, progress, err);
     reset_state();
     if (!ok) return false;
@@ -309,6 +313,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     done.bricks_total = r.skips ? renderer->blocks.blocks : 1;
     done.bricks_drawn = r.skips ? renderer->blocks.shown : 1;
     done.octree_ms = renderer->blocks.build_ms;
+    done.upload_ms = r.upload_ms;
     if (stats) *stats = done;
     return ang_gl_check(renderer->pass.gl, err);
 }

@@ -1,6 +1,7 @@
 /* What raycast decides about a picture before anything is drawn, and how it explains that. */
 #include "core/render/raycast_private.h"
 
+#include "core/render/facts.h"
 #include "core/render/pixel_pad.h"
 #include "core/render/scene_parts.h"
 
@@ -63,31 +64,37 @@ static void decide_cover(ang_raycast *r) {
     r->covers = ang_clip_space_ahead(&r->space, r->cover_lower, r->cover_upper);
 }
 
-static bool decide_skipping(ang_renderer *renderer, ang_raycast *r, ang_error *err) {
+/* The voxels that main passes may sample: a stretch is looked up as a whole where any of it may show something. An
+ * iso-surface looks at the entry of rays as well. */
+static void find_sampled(const ang_renderer *renderer, ang_raycast *r) {
     const ang_volume *volume = renderer->pass.volume;
-    r->visibility = ang_visibility_make(volume, r->scene, renderer->pass.table.tables);
-    renderer->blocks.build_ms = 0;
-    if (r->options->no_skip)
-        r->why_no_skip = "--no-skip";
-    else if (r->scene->mode == ANG_MODE_MEAN)
-        r->why_no_skip = "every value counts in a mean";
-    if (r->why_no_skip) return true;
-    if (!ang_block_ranges_update(&renderer->blocks, renderer->pass.gl, volume, &r->visibility, r->options->threads,
-                                 err))
-        return false;
-    if (renderer->blocks.shown == renderer->blocks.blocks) r->why_no_skip = "no block of the volume is invisible";
-    r->skips = !r->why_no_skip;
-    return true;
+    ang_vec3 margin = ang_facts_margin(&r->frame, 1.01 * (r->steps + 2) * ang_ray_step(volume, r->options));
+    r->facts.texture_shared = r->facts.software && r->scene->mode != ANG_MODE_ISO;
+    margin = ang_vec3_add(margin, (ang_vec3){1, 1, 1});
+    r->facts.share_uploaded =
+        ang_block_box_voxels(&renderer->blocks.box, renderer->blocks.octree, volume, margin, r->first, r->end);
 }
 
-static void decide_termination(const ang_renderer *renderer, ang_raycast *r) {
-    const ang_scene *scene = r->scene;
-    if (scene->mode == ANG_MODE_ISO)
-        r->why_no_termination = r->options->termination < 1 ? NULL : "rays are not to end early";
-    else
-        r->why_no_termination =
-            ang_scene_why_no_termination(scene, renderer->pass.volume, &renderer->pass.table, r->options->termination);
-    r->terminates = !r->why_no_termination;
+/* Decides as far as is known, builds what that takes, and decides again. */
+static bool decide(ang_renderer *renderer, ang_raycast *r, ang_error *err) {
+    const ang_volume *volume = renderer->pass.volume;
+    r->visibility = ang_visibility_make(volume, r->scene, renderer->pass.table.tables);
+    r->facts = ang_ray_pass_facts(&renderer->pass, ANG_DRAW_PASSES, r->scene, r->options, &r->frame);
+    r->plan = ang_plan_decide(&r->facts);
+    renderer->blocks.build_ms = 0;
+    if (ang_plan_uses(&r->plan, ANG_PART_SKIPPING)) {
+        if (!ang_block_ranges_update(&renderer->blocks, renderer->pass.gl, volume, &r->visibility, r->options->threads,
+                                     err))
+            return false;
+        r->facts.blocks = renderer->blocks.blocks;
+        r->facts.shown = renderer->blocks.shown;
+        find_sampled(renderer, r);
+        r->plan = ang_plan_decide(&r->facts);
+    }
+    r->skips = ang_plan_uses(&r->plan, ANG_PART_SKIPPING);
+    r->terminates = ang_plan_uses(&r->plan, ANG_PART_TERMINATION);
+    r->joined = ang_plan_uses(&r->plan, ANG_PART_JOINED);
+    return true;
 }
 
 bool ang_raycast_decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
@@ -96,15 +103,11 @@ bool ang_raycast_decide(ang_renderer *renderer, const ang_scene *scene, const an
     if (options->pass_steps < 0 || options->pass_steps > 64)
         return ang_fail(err, ANG_USAGE, "--passes-steps %d: raycast takes 1 to 64 steps a pass, or 0 for the usual",
                         options->pass_steps);
-    if (!ang_ray_pass_prepare(&renderer->pass, scene, options, &r->frame, err) || !decide_skipping(renderer, r, err))
-        return false;
+    if (!ang_ray_pass_prepare(&renderer->pass, scene, options, &r->frame, err)) return false;
     r->space = ang_clip_space_make(&r->frame, scene->width, scene->height);
-    decide_termination(renderer, r);
     decide_passes(renderer, r);
     decide_cover(r);
-    r->why_not_joined = !r->skips ? "nothing is skipped" : options->separate_passes ? "--separate-passes" : NULL;
-    r->joined = !r->why_not_joined;
-    return true;
+    return decide(renderer, r, err);
 }
 
 bool ang_raycast_has(const ang_raycast *r, ang_raycast_pass pass) {
@@ -114,18 +117,13 @@ bool ang_raycast_has(const ang_raycast *r, ang_raycast_pass pass) {
 }
 
 static void explain_skipping(const ang_renderer *renderer, const ang_raycast *r, ang_plan *plan) {
-    if (!r->skips) {
-        ang_plan_leave_out(plan, "skipping of stretches that show nothing", "%s", r->why_no_skip);
-    } else {
-        size_t shown = renderer->blocks.shown, blocks = renderer->blocks.blocks;
-        ang_plan_use(plan, "skipping of stretches in which no lookup meets a visible block of 8x8x8 cells");
+    if (!r->skips) return;
+    size_t shown = renderer->blocks.shown, blocks = renderer->blocks.blocks;
+    ang_plan_use(plan, "skipping of stretches in which no lookup meets a visible block of 8x8x8 cells");
+    if (shown < blocks)
         ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s", blocks - shown, blocks,
                            ang_visibility_reason(r->visibility.mode));
-    }
-    if (r->joined)
-        ang_plan_use(plan, "empty space is found by the main passes");
-    else
-        ang_plan_leave_out(plan, "empty space found by the main passes", "%s", r->why_not_joined);
+    if (r->joined) ang_plan_use(plan, "empty space is found by the main passes");
 }
 
 bool ang_raycast_explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
@@ -133,14 +131,12 @@ bool ang_raycast_explain(ang_renderer *renderer, const ang_scene *scene, const a
     ang_raycast r;
     if (!ang_raycast_decide(renderer, scene, options, &r, err)) return false;
     ang_plan_use(plan, "one 3D texture of 16 bits for the whole volume");
-    ang_scene_explain(plan, scene, renderer->pass.volume);
+    ang_scene_explain(plan, scene, renderer->pass.volume, &r.plan);
     ang_plan_use(plan, "up to %d main passes of %d lookups along every ray", r.passes, r.steps);
     explain_skipping(renderer, &r, plan);
     if (r.terminates)
         ang_plan_use(plan, "early termination: the depth test rejects pixels that are %s",
                      scene->mode == ANG_MODE_ISO ? "on a surface" : "opaque");
-    else
-        ang_plan_leave_out(plan, "early termination", "%s", r.why_no_termination);
     if (!ang_raycast_tests(&r))
         ang_plan_leave_out(plan, "depth test and passes between the main passes", "nothing is skipped or ends early");
     for (int pass = 0; pass < ANG_RAYCAST_PASSES; pass++)

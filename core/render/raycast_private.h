@@ -45,8 +45,11 @@ typedef struct ang_raycast {
     ang_visibility visibility;
     ang_vec3 cover_lower, cover_upper; /* the clip box, widened; index about its centre */
     bool covers;                       /* whether the box's faces cover its rays, not the whole picture */
-    bool skips, terminates, joined;
-    const char *why_no_skip, *why_no_termination, *why_not_joined;
+    ang_plan_facts facts;
+    ang_plan_decisions plan;
+    bool skips, terminates, joined; /* what `plan` says, in short */
+    int first[3], end[3];           /* voxels that may be sampled */
+    double upload_ms;
     int steps;          /* lookups of a ray in a main pass */
     int passes;         /* main passes for the longest ray */
     char constants[96]; /* a part of the programs */

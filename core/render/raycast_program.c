@@ -28,7 +28,10 @@ static void add_path(ang_shader_source *source, const ang_raycast *r, bool fetch
     ang_shader_add(source, "pass_constants", r->constants);
     ANG_SHADER_ADD(source, lattice);
     ANG_SHADER_ADD(source, raycast_path);
-    if (fetches) ANG_SHADER_ADD(source, raycast_fetch);
+    if (fetches && ang_plan_uses(&r->plan, ANG_PART_DIRECTIONS))
+        ANG_SHADER_ADD(source, raycast_fetch);
+    else if (fetches)
+        ANG_SHADER_ADD(source, raycast_fetch_parallel);
     add_lookups(source, r);
 }
 
@@ -55,9 +58,9 @@ static void add_value(ang_shader_source *source, const ang_renderer *renderer, c
     ang_parts_field(source, kind);
     switch (scene->mode) {
     case ANG_MODE_DVR:
-        ang_parts_classification(source, scene, kind);
-        ang_parts_opacity(source, &renderer->pass.table, 1.01 * ang_ray_step(volume, r->options));
-        if (ang_scene_needs_phong(scene)) {
+        ang_parts_classification(source, scene, kind, &r->plan);
+        ang_parts_opacity(source, &r->plan);
+        if (ang_plan_uses(&r->plan, ANG_PART_GRADIENTS)) {
             ANG_SHADER_ADD(source, raycast_along);
             ANG_SHADER_ADD(source, raycast_dvr_seek);
         } else {
@@ -84,13 +87,18 @@ static void add_value(ang_shader_source *source, const ang_renderer *renderer, c
 static void compose_rays(ang_shader_source *source, const ang_raycast *r) {
     ang_parts_ray(source, r->scene, true);
     add_path(source, r, false);
+    if (ang_plan_uses(&r->plan, ANG_PART_DIRECTIONS))
+        ANG_SHADER_ADD(source, raycast_keep);
+    else
+        ANG_SHADER_ADD(source, raycast_keep_parallel);
     add_wake(source, r);
     ANG_SHADER_ADD(source, raycast_rays);
 }
 
 static void compose_main(ang_shader_source *source, const ang_renderer *renderer, const ang_raycast *r, bool counting) {
     if (ang_raycast_tests(r)) ANG_SHADER_ADD(source, early);
-    if (ang_scene_needs_phong(r->scene) && r->scene->mode == ANG_MODE_DVR) ang_parts_ray(source, r->scene, false);
+    if (ang_plan_uses(&r->plan, ANG_PART_GRADIENTS) && r->scene->mode == ANG_MODE_DVR)
+        ang_parts_ray(source, r->scene, false);
     add_path(source, r, true);
     add_wake(source, r);
     add_value(source, renderer, r);
@@ -129,7 +137,7 @@ static void compose_resolve(ang_shader_source *source, const ang_raycast *r, boo
     if (scene->mode == ANG_MODE_ISO) {
         add_path(source, r, true);
         ang_parts_field(source, field_kind(r));
-        ang_parts_classification(source, scene, field_kind(r));
+        ang_parts_classification(source, scene, field_kind(r), &r->plan);
         ANG_SHADER_ADD(source, raycast_along);
         add_counting(source, counting);
         ANG_SHADER_ADD(source, raycast_shade);
@@ -196,6 +204,7 @@ unsigned ang_raycast_program(ang_renderer *renderer, const ang_raycast *r, ang_r
     ang_uniform_float(program, "termination", r->scene->mode == ANG_MODE_ISO ? 0.5 : r->options->termination);
     ang_uniform_int(program, "path_entry", UNIT_ENTRY);
     ang_uniform_int(program, "path_direction", UNIT_DIRECTION);
+    ang_uniform_vec3(program, "path_along", r->frame.axis);
     ang_uniform_int(program, "path_wake", UNIT_WAKE);
     ang_uniform_int(program, "pass_found", UNIT_FOUND);
     ang_uniform_int(program, "slice_accumulated", UNIT_FOUND); /* resolve.glsl */

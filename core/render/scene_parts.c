@@ -22,37 +22,19 @@ int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume) {
     return 1 + ang_scene_needs_table(scene) + 6 * ang_scene_needs_phong(scene) + ang_scene_needs_weight(scene, volume);
 }
 
-const char *ang_scene_why_no_termination(const ang_scene *scene, const ang_volume *volume,
-                                         const ang_table_texture *table, double threshold) {
-    if (scene->mode != ANG_MODE_DVR) return "every sample counts in this mode";
-    if (!(threshold < 1)) return "rays are not to end early";
-    double depth = table->greatest * 2 * ang_volume_half_diagonal(volume);
-    return -expm1(-depth) < threshold ? "no ray can reach the threshold" : NULL;
-}
-
-/* Whether the picture jumps with the value, so that its last bits matter. */
-static bool needs_exact(const ang_scene *scene) {
-    return scene->mode == ANG_MODE_ISO || ang_transfer_jumps(scene->transfer);
-}
-
-void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume) {
-    if (ang_scene_needs_table(scene)) {
+void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume,
+                       const ang_plan_decisions *decisions) {
+    if (ang_scene_needs_table(scene))
         ang_plan_use(plan, "transfer function");
-        if (!needs_exact(scene))
-            ang_plan_leave_out(plan, "rounding to stored values", "the transfer function has no step");
-    } else {
-        ang_plan_leave_out(plan, "transfer function", "this mode shows values through the window");
-    }
-    if (ang_scene_needs_phong(scene))
-        ang_plan_use(plan, "gradients by central differences, Phong");
     else
-        ang_plan_leave_out(plan, "gradient lookups", "%s",
-                           scene->mode == ANG_MODE_DVR ? "shading is none" : "this mode shows values, not surfaces");
+        ang_plan_leave_out(plan, "transfer function", "this mode shows values through the window");
+    if (ang_scene_needs_phong(scene)) ang_plan_use(plan, "gradients by central differences, Phong");
     if (ang_scene_needs_weight(scene, volume))
         ang_plan_use(plan, "weights that leave padding out of the mean");
     else
         ang_plan_leave_out(plan, "padding weights", "%s",
                            volume->padding ? "only mode mean leaves padding out" : "the volume has no padding");
+    ang_plan_explain(decisions, plan);
 }
 
 void ang_parts_field(ang_shader_source *source, ang_field_kind kind) {
@@ -67,17 +49,22 @@ void ang_parts_field(ang_shader_source *source, ang_field_kind kind) {
     }
 }
 
-void ang_parts_classification(ang_shader_source *source, const ang_scene *scene, ang_field_kind kind) {
+void ang_parts_classification(ang_shader_source *source, const ang_scene *scene, ang_field_kind kind,
+                              const ang_plan_decisions *decisions) {
     if (!ang_scene_needs_table(scene)) {
         ANG_SHADER_ADD(source, window);
         return;
     }
-    if (needs_exact(scene))
+    if (ang_plan_uses(decisions, ANG_PART_ROUNDING))
         ANG_SHADER_ADD(source, stored_exact);
     else
         ANG_SHADER_ADD(source, stored_near);
+    if (ang_plan_uses(decisions, ANG_PART_COLOUR))
+        ANG_SHADER_ADD(source, transfer_colours);
+    else
+        ANG_SHADER_ADD(source, transfer_one);
     ANG_SHADER_ADD(source, transfer);
-    if (ang_scene_needs_phong(scene)) {
+    if (ang_plan_uses(decisions, ANG_PART_GRADIENTS)) {
         if (kind == ANG_FIELD_GRADIENTS)
             ANG_SHADER_ADD(source, gradient_texture);
         else
@@ -88,12 +75,12 @@ void ang_parts_classification(ang_shader_source *source, const ang_scene *scene,
     }
 }
 
-void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table, double length) {
+void ang_parts_opacity(ang_shader_source *source, const ang_plan_decisions *decisions) {
     ANG_SHADER_ADD(source, opacity_series);
-    if (table->greatest * length < 0.49)
-        ANG_SHADER_ADD(source, opacity_thin);
-    else
+    if (ang_plan_uses(decisions, ANG_PART_EXPONENTIAL))
         ANG_SHADER_ADD(source, opacity_any);
+    else
+        ANG_SHADER_ADD(source, opacity_thin);
 }
 
 void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume,
@@ -115,7 +102,7 @@ static void add_march_dvr(ang_shader_source *source, bool count_shown) {
 }
 
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
-                     const ang_table_texture *table, double length, bool skips, bool count_shown) {
+                     const ang_plan_decisions *decisions, bool seeks, bool count_shown) {
     ANG_SHADER_ADD(source, march);
     if (kind == ANG_FIELD_GRADIENTS)
         ANG_SHADER_ADD(source, march_single);
@@ -123,8 +110,8 @@ void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const an
         ANG_SHADER_ADD(source, march_pairs);
     switch (scene->mode) {
     case ANG_MODE_DVR:
-        ang_parts_opacity(source, table, length);
-        if (ang_scene_needs_phong(scene) && !skips)
+        ang_parts_opacity(source, decisions);
+        if (ang_scene_needs_phong(scene) && seeks && !ang_plan_uses(decisions, ANG_PART_SKIPPING))
             ANG_SHADER_ADD(source, march_dvr_seek);
         else
             add_march_dvr(source, count_shown);
@@ -191,13 +178,16 @@ void ang_uniforms_field(unsigned program, const ang_volume_texture *texture, con
     ang_uniform_int(program, "weight_values", ANG_UNIT_WEIGHT);
 }
 
+/* Where shading is forced into a scene without any it leaves colours as they are. */
 static void set_phong(unsigned program, const ang_volume *volume, const ang_scene *scene, const ang_ray_frame *frame) {
+    static const ang_phong unchanged = {.ambient = 1, .power = 1, .g0 = 1};
+    const ang_phong *phong = ang_scene_needs_phong(scene) ? &scene->phong : &unchanged;
     ang_uniform_transposed(program, "gradient_to_mm", &frame->to_index, 0.5 * volume->slope);
-    ang_uniform_float(program, "phong_ambient", scene->phong.ambient);
-    ang_uniform_float(program, "phong_diffuse", scene->phong.diffuse);
-    ang_uniform_float(program, "phong_specular", scene->phong.specular);
-    ang_uniform_float(program, "phong_power", scene->phong.power);
-    ang_uniform_float(program, "phong_g0", scene->phong.g0);
+    ang_uniform_float(program, "phong_ambient", phong->ambient);
+    ang_uniform_float(program, "phong_diffuse", phong->diffuse);
+    ang_uniform_float(program, "phong_specular", phong->specular);
+    ang_uniform_float(program, "phong_power", phong->power);
+    ang_uniform_float(program, "phong_g0", phong->g0);
 }
 
 static void set_window(unsigned program, const ang_volume *volume, const ang_scene *scene) {
@@ -226,10 +216,10 @@ static void set_iso(unsigned program, const ang_volume *volume, const ang_scene 
 void ang_uniforms_scene(unsigned program, const ang_scene *scene, const ang_volume *volume, const ang_ray_frame *frame,
                         const ang_table_texture *table) {
     if (ang_scene_needs_table(scene))
-        ang_table_texture_bind(table, program, ANG_UNIT_TABLE);
+        ang_table_texture_bind(table, program, ANG_UNIT_TABLE, ANG_UNIT_EXTINCTION);
     else
         set_window(program, volume, scene);
-    if (ang_scene_needs_phong(scene)) set_phong(program, volume, scene, frame);
+    if (ang_scene_needs_table(scene)) set_phong(program, volume, scene, frame);
     if (scene->mode == ANG_MODE_MEAN) set_mean(program, volume, scene);
     if (scene->mode == ANG_MODE_ISO) set_iso(program, volume, scene);
 }

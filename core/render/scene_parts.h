@@ -3,6 +3,7 @@
 #ifndef ANG_RENDER_SCENE_PARTS_H
 #define ANG_RENDER_SCENE_PARTS_H
 
+#include "core/plan/decide.h"
 #include "core/render/program.h"
 #include "core/render/table_texture.h"
 #include "core/render/volume_texture.h"
@@ -10,7 +11,7 @@
 #include "core/scene/scene.h"
 
 /* The texture units that the parts read from; methods take further ones from ANG_UNIT_FREE on. */
-enum { ANG_UNIT_TABLE, ANG_UNIT_FIELD, ANG_UNIT_WEIGHT, ANG_UNIT_LIMIT, ANG_UNIT_FREE };
+enum { ANG_UNIT_TABLE, ANG_UNIT_EXTINCTION, ANG_UNIT_FIELD, ANG_UNIT_WEIGHT, ANG_UNIT_LIMIT, ANG_UNIT_FREE };
 
 /* What of a scene costs lookups. */
 bool ang_scene_needs_table(const ang_scene *scene);                            /* dvr, iso */
@@ -19,12 +20,9 @@ bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume); /
 /* Texture lookups of one sample: the field, the table, six for a gradient, the weight. */
 int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume);
 
-/* Why rays are followed to their end, for the plan; NULL where in mode dvr some may reach `threshold` before. */
-const char *ang_scene_why_no_termination(const ang_scene *scene, const ang_volume *volume,
-                                         const ang_table_texture *table, double threshold);
-
-/* Adds to the plan what the scene itself takes and leaves out, whatever the method. */
-void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume);
+/* Adds to the plan what the scene itself takes, whatever the method, and everything that was decided. */
+void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume,
+                       const ang_plan_decisions *decisions);
 
 /* Where values and gradients come from. */
 typedef enum ang_field_kind {
@@ -35,19 +33,18 @@ typedef enum ang_field_kind {
 
 /* Parts: field_at; stored_from, transfer_at and shade, or window_grey; weight_at. */
 void ang_parts_field(ang_shader_source *source, ang_field_kind kind);
-void ang_parts_classification(ang_shader_source *source, const ang_scene *scene, ang_field_kind kind);
+void ang_parts_classification(ang_shader_source *source, const ang_scene *scene, ang_field_kind kind,
+                              const ang_plan_decisions *decisions);
 void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind);
 
-/* opacity_of for samples that stand for at most `length` mm of a ray: no exponential where none is thick enough. */
-void ang_parts_opacity(ang_shader_source *source, const ang_table_texture *table, double length);
+/* opacity_of: no exponential where no sample is thick enough. */
+void ang_parts_opacity(ang_shader_source *source, const ang_plan_decisions *decisions);
 
 /* march, the loop along a ray, of the scene's mode, with the parts that it needs beside field and classification; the
- * parts that bound it and that skip (bounds_*.glsl, skip_*.glsl) must be there. `length`: mm that a sample stands for,
- * at most; `skips`: whether rays skip or take too many
- * samples for march_dvr_seek.glsl; `count_shown`: as
- * in ang_render_options. */
+ * parts that bound it and that skip (bounds_*.glsl, skip_*.glsl) must be there. `seeks`: whether march_dvr_seek.glsl
+ * may take the samples where rays do not skip; `count_shown`: as in ang_render_options. */
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
-                     const ang_table_texture *table, double length, bool skips, bool count_shown);
+                     const ang_plan_decisions *decisions, bool seeks, bool count_shown);
 
 /* clip_x, clip_y and clip_w of what projects places of index space. */
 void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space);

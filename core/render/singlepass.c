@@ -33,22 +33,40 @@ static void set_no_uniforms(const void *context, unsigned program, const ang_ray
     (void)context, (void)program, (void)frame;
 }
 
-static const ang_ray_limits whole_box = {add_parts, set_no_uniforms, NULL, false, false};
+static const ang_ray_limits whole_box = {add_parts, set_no_uniforms, NULL, false, NULL};
+
+static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                   ang_ray_frame *frame, ang_plan_decisions *decisions, ang_error *err) {
+    if (!ang_ray_pass_prepare(&renderer->pass, scene, options, frame, err)) return false;
+    ang_plan_facts facts = ang_ray_pass_facts(&renderer->pass, ANG_DRAW_WHOLE_RAYS, scene, options, frame);
+    *decisions = ang_plan_decide(&facts);
+    return true;
+}
 
 static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
     ang_ray_frame frame;
-    if (!ang_ray_pass_prepare(&renderer->pass, scene, options, &frame, err)) return false;
-    if (stats) *stats = (ang_frame_stats){.counts = stats->counts, .bricks_drawn = 1, .bricks_total = 1, .passes = 1};
-    return ang_ray_pass_draw(&renderer->pass, scene, options, &frame, &whole_box, image, stats, progress, err);
+    ang_plan_decisions decisions;
+    double upload_ms = 0;
+    if (!decide(renderer, scene, options, &frame, &decisions, err) ||
+        !ang_ray_pass_hold(&renderer->pass, NULL, NULL, &upload_ms, err))
+        return false;
+    if (stats)
+        *stats = (ang_frame_stats){
+            .counts = stats->counts, .bricks_drawn = 1, .bricks_total = 1, .passes = 1, .upload_ms = upload_ms};
+    ang_ray_limits limits = whole_box;
+    limits.decisions = &decisions;
+    return ang_ray_pass_draw(&renderer->pass, scene, options, &frame, &limits, image, stats, progress, err);
 }
 
 static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
                     ang_error *err) {
     ang_ray_frame frame;
-    if (!ang_ray_pass_prepare(&renderer->pass, scene, options, &frame, err)) return false;
-    ang_plan_leave_out(plan, "skipping of invisible blocks", "this method is the baseline and skips nothing");
-    ang_ray_pass_explain(&renderer->pass, scene, options, &whole_box, plan);
+    ang_plan_decisions decisions;
+    if (!decide(renderer, scene, options, &frame, &decisions, err)) return false;
+    ang_ray_limits limits = whole_box;
+    limits.decisions = &decisions;
+    ang_ray_pass_explain(&renderer->pass, scene, options, &limits, plan);
     return true;
 }
 

@@ -78,11 +78,13 @@ bool ang_skip_grid_update(ang_skip_grid *grid, ang_gl *gl, const ang_volume *vol
     uint8_t *before = fresh ? NULL : ang_alloc(grid->blocks, 1, "grid of distances", err);
     if (!fresh && !before) return false;
     grid->visible_blocks = 0;
+    grid->box = ang_block_box_none();
     for (size_t i = 0; i < grid->blocks; i++) {
         uint8_t shows = ang_visibility_of(visibility, grid->octree->level[0].nodes[i]);
         changed = changed || shows != grid->visible[i];
         grid->visible[i] = shows;
         grid->visible_blocks += shows;
+        if (shows) ang_block_box_add(&grid->box, grid->octree, i);
     }
     if (!changed) {
         free(before);

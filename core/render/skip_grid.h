@@ -3,6 +3,7 @@
 #ifndef ANG_RENDER_SKIP_GRID_H
 #define ANG_RENDER_SKIP_GRID_H
 
+#include "core/plan/block_box.h"
 #include "core/plan/visibility.h"
 #include "core/render/context.h"
 #include "core/render/program.h"
@@ -20,6 +21,7 @@ typedef struct ang_skip_grid {
     uint8_t *distance;  /* ang_block_distances */
     unsigned texture;   /* 3D, GL_R8UI: `distance` */
     size_t blocks, visible_blocks;
+    ang_block_box box;      /* of the visible blocks */
     uint64_t changes;       /* rises when the set of visible blocks does */
     size_t blocks_uploaded; /* by the last update: those between the first and the last plane that changed */
     double build_ms;        /* of the last update: the octree */

@@ -28,9 +28,8 @@ static void compose_value(ang_shader_source *source, bool faces, const ang_slice
     ang_parts_field(source, kind);
     switch (scene->mode) {
     case ANG_MODE_DVR:
-        ang_parts_classification(source, scene, kind);
-        /* The first and the last sample stand for more, the only one of a ray for almost two steps. */
-        ang_parts_opacity(source, recipe->table, (faces ? 2 : 1) * recipe->length);
+        ang_parts_classification(source, scene, kind, recipe->plan[faces]);
+        ang_parts_opacity(source, recipe->plan[faces]);
         ANG_SHADER_ADD(source, slice_dvr);
         break;
     case ANG_MODE_MIP:
@@ -44,7 +43,7 @@ static void compose_value(ang_shader_source *source, bool faces, const ang_slice
         ANG_SHADER_ADD(source, slice_mean);
         break;
     case ANG_MODE_ISO:
-        ang_parts_classification(source, scene, kind);
+        ang_parts_classification(source, scene, kind, recipe->plan[faces]);
         ANG_SHADER_ADD(source, slice_iso);
         break;
     }
@@ -54,7 +53,7 @@ static void compose_slices(sources *to, bool faces, const ang_slice_recipe *reci
     int group = ang_slice_group(recipe->scene, recipe->options);
     bool counting = recipe->counting;
     ang_slice_geometry_parts(recipe->options->proxy, group, &to->vertex);
-    if (recipe->early) ANG_SHADER_ADD(&to->fragment, early);
+    if (ang_plan_uses(recipe->plan[0], ANG_PART_TERMINATION)) ANG_SHADER_ADD(&to->fragment, early);
     ang_parts_ray(&to->fragment, recipe->scene, true);
     ang_slice_planes_parts(group, &to->fragment);
     ANG_SHADER_ADD(&to->fragment, slice_sample);

@@ -5,7 +5,6 @@
 #include "core/plan/plan.h"
 #include "core/render/method.h"
 #include "core/render/program.h"
-#include "core/render/table_texture.h"
 
 /* The passes over a picture. */
 typedef enum ang_slice_pass {
@@ -27,10 +26,9 @@ typedef struct ang_slice_recipe {
     const ang_scene *scene;
     const ang_volume *volume;
     const ang_render_options *options;
-    const ang_table_texture *table;
-    double length; /* mm of a ray from one plane to the next, at most */
-    bool early;    /* the depth test comes before the shader */
-    bool counting; /* a second output counts samples */
+    const ang_plan_decisions *plan[2]; /* away from the faces, at the faces; early termination: the depth test comes
+                                          before the shader */
+    bool counting;                     /* a second output counts samples */
 } ang_slice_recipe;
 
 /* The program of a pass; 0 with ANG_GL or ANG_LIMIT. */

@@ -146,7 +146,8 @@ static bool get_programs(ang_renderer *renderer, const ang_slice_recipe *recipe,
     bool resolves = ang_slice_needs_resolve(recipe->scene), edges = recipe->options->show_bricks;
     if (!get_program(renderer, true, ANG_SLICE_INNER, recipe, &out->slices[0], err) ||
         !get_program(renderer, true, ANG_SLICE_FACES, recipe, &out->slices[1], err) ||
-        !get_program(renderer, recipe->early, ANG_SLICE_FINISH, recipe, &out->finish, err) ||
+        !get_program(renderer, ang_plan_uses(recipe->plan[0], ANG_PART_TERMINATION), ANG_SLICE_FINISH, recipe,
+                     &out->finish, err) ||
         !get_program(renderer, resolves, ANG_SLICE_RESOLVE, recipe, &out->resolve, err) ||
         !get_program(renderer, edges, ANG_SLICE_EDGES, recipe, &out->edges, err))
         return false;

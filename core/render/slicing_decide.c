@@ -2,6 +2,7 @@
 #include "core/render/slicing_private.h"
 
 #include "core/base/clock.h"
+#include "core/render/facts.h"
 #include "core/render/scene_parts.h"
 
 #include <string.h>
@@ -16,9 +17,8 @@ static double most_reach(const ang_volume *volume) {
 static const double polygon_cost = 300, polygon_cost_shaded = 120;
 /* Work is handed to OpenGL in pieces of about this many fragments, so that it can be interrupted... */
 static const double piece_samples = 8e6;
-/* ... and pixels that are finished are looked for about this often in a picture, but not for less than this many
- * fragments a pixel: a look costs about four. */
-static const double finish_looks = 12, finish_least = 8;
+/* ... and pixels that are finished are looked for about this often in a picture. */
+static const double finish_looks = 12;
 
 /* Millimetres that a ray moves from one plane to the next, at most. */
 static double step_length(const ang_scene *scene, const ang_ray_frame *frame, const ang_slice_planes *planes) {
@@ -28,16 +28,6 @@ static double step_length(const ang_scene *scene, const ang_ray_frame *frame, co
         least_cosine = fmin(least_cosine, ang_vec3_dot(ray.direction_mm, frame->axis_mm));
     }
     return 1.01 * planes->distance / fmax(least_cosine, 1e-3);
-}
-
-/* The same in index units along each axis. */
-static ang_vec3 step_margin(const ang_ray_frame *frame, double length) {
-    double margin[3];
-    for (int axis = 0; axis < 3; axis++) {
-        const double *row = frame->to_index.m[axis];
-        margin[axis] = length * sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
-    }
-    return (ang_vec3){margin[0], margin[1], margin[2]};
 }
 
 /* Voxels: where a ray moves farther from plane to plane, looking for the hits of an iso-surface between them makes
@@ -64,28 +54,25 @@ static bool prepare_octree(ang_renderer *renderer, const ang_render_options *opt
     return renderer->octree != NULL;
 }
 
-static void decide_skipping(const ang_renderer *renderer, const ang_render_options *options, ang_slicing *s) {
-    s->why_no_skip = NULL;
-    if (options->no_skip)
-        s->why_no_skip = "--no-skip";
-    else if (s->visibility.mode == ANG_MODE_MEAN)
-        s->why_no_skip = "every value counts in a mean";
-    else if (s->visibility.mode == ANG_MODE_ISO && s->needs.reach + 1 > MOST_ISO_APRON)
-        s->why_no_skip = "the planes are so far apart that a hit may lie blocks before its plane";
-    else if (ang_visibility_of_all(&s->visibility, renderer->octree->level[renderer->octree->levels - 1].nodes[0]))
-        s->why_no_skip = "nothing in the volume is invisible";
-    s->skips = !s->why_no_skip;
+/* What is known of the scene and the octree; inner slices stand for one distance of planes. */
+static void find_facts(const ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                       ang_slicing *s) {
+    const ang_octree *octree = renderer->octree;
+    s->facts = ang_facts_make(ANG_DRAW_SLICES, renderer->gl, renderer->volume, scene, options, &s->frame,
+                              &renderer->table, s->length);
+    s->facts.apron = s->needs.reach + 1;
+    s->facts.most_apron = MOST_ISO_APRON;
+    s->facts.all_shows = ang_visibility_of_all(&s->visibility, octree->level[octree->levels - 1].nodes[0]);
 }
 
-/* Looks for finished pixels are left out where they cannot pay. */
-static void decide_finishing(const ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
-                             ang_slicing *s) {
-    s->why_no_finish = ang_scene_why_no_termination(scene, renderer->volume, &renderer->table, options->termination);
-    if (scene->mode == ANG_MODE_ISO)
-        s->why_no_finish = "the depth test itself keeps the nearest hit";
-    else if (!s->why_no_finish && renderer->boxes.samples < finish_least * scene->width * scene->height)
-        s->why_no_finish = "there are too few fragments to spare any";
-    s->finishes = !s->why_no_finish;
+/* The first and the last sample stand for more, the only one of a ray for almost two steps. */
+static void decide(ang_slicing *s) {
+    ang_plan_facts at_faces = s->facts;
+    at_faces.sample_mm = 2 * s->facts.sample_mm;
+    s->plan = ang_plan_decide(&s->facts);
+    s->plan_at_faces = ang_plan_decide(&at_faces);
+    s->skips = ang_plan_uses(&s->plan, ANG_PART_SKIPPING);
+    s->finishes = ang_plan_uses(&s->plan, ANG_PART_TERMINATION);
 }
 
 static bool same_texture(const void *context, const ang_slice_box *a, const ang_slice_box *b) {
@@ -102,7 +89,7 @@ static void decide_order(const ang_renderer *renderer, const ang_scene *scene, c
                                  .same_texture = same_texture,
                                  .context = &renderer->store};
     if (s->finishes) {
-        double least = finish_least * scene->width * scene->height;
+        double least = ang_plan_least_fragments * scene->width * scene->height;
         s->order.most_samples = fmin(fmax(renderer->boxes.samples / finish_looks, least), piece_samples);
     }
 }
@@ -132,31 +119,33 @@ bool ang_slicing_decide(ang_renderer *renderer, const ang_scene *scene, const an
     s->needs.weight = ang_scene_needs_weight(scene, volume);
     s->needs.reach = ang_scene_needs_phong(scene);
     s->length = step_length(scene, &s->frame, &s->planes);
-    s->margin = step_margin(&s->frame, s->length);
+    s->margin = ang_facts_margin(&s->frame, s->length);
     if (scene->mode == ANG_MODE_ISO)
         s->needs.reach += (int)fmin(ceil(fmax(s->margin.x, fmax(s->margin.y, s->margin.z))), most_reach(volume));
     if (!prepare_octree(renderer, options, s, err) ||
         !ang_brick_store_arrange(&renderer->store, renderer->octree, s->needs, err))
         return false;
-    decide_skipping(renderer, options, s);
+    find_facts(renderer, scene, options, s);
+    decide(s);
     s->group = ang_slice_group(scene, options);
     bool shaded = ang_scene_needs_phong(scene);
     ang_slice_cut cut = {.visibility = s->skips ? &s->visibility : NULL,
-                         .to_leaves = options->bricks[0] > 0,
+                         .to_leaves = options->bricks[0] > 0 || ang_plan_uses(&s->plan, ANG_PART_DESCENT),
                          .top_level = ang_brick_store_level(&renderer->store),
                          .margin = s->margin,
                          .group = s->group,
                          .polygon_cost = shaded ? polygon_cost_shaded : polygon_cost};
     if (!ang_slice_boxes_make(&renderer->boxes, renderer->octree, &s->frame, &s->planes, &s->space, &cut, err))
         return false;
-    decide_finishing(renderer, scene, options, s);
+    s->facts.fragments = renderer->boxes.samples;
+    decide(s);
     decide_order(renderer, scene, options, s);
     return true;
 }
 
 ang_slice_recipe ang_slicing_recipe(const ang_renderer *renderer, const ang_scene *scene,
                                     const ang_render_options *options, const ang_slicing *s, bool counting) {
-    return (ang_slice_recipe){scene, renderer->volume, options, &renderer->table, s->length, s->finishes, counting};
+    return (ang_slice_recipe){scene, renderer->volume, options, {&s->plan, &s->plan_at_faces}, counting};
 }
 
 static void explain_storage(const ang_renderer *renderer, ang_plan *plan) {
@@ -185,7 +174,6 @@ static void explain_boxes(const ang_renderer *renderer, const ang_slicing *s, co
     ang_plan_use(plan, "polygons by %s: %.0f in %zu boxes, to which %zu of the octree's %zu leaves are joined",
                  ang_proxy_name(s->order.proxy), boxes->polygons, boxes->blocks, boxes->leaves_drawn,
                  boxes->leaves_total);
-    if (!s->skips) ang_plan_leave_out(plan, "skipping of invisible boxes", "%s", s->why_no_skip);
     if (boxes->leaves_total > boxes->leaves_drawn)
         ang_plan_leave_out(plan, "parts of the volume",
                            "%zu of %zu leaves of the octree: %s%sthey lie outside the "
@@ -200,7 +188,7 @@ bool ang_slicing_explain(ang_renderer *renderer, const ang_scene *scene, const a
     if (!ang_slicing_decide(renderer, scene, options, &s, err)) return false;
     explain_storage(renderer, plan);
     explain_boxes(renderer, &s, options, plan);
-    ang_scene_explain(plan, scene, renderer->volume);
+    ang_scene_explain(plan, scene, renderer->volume, &s.plan);
     ang_slice_recipe recipe = ang_slicing_recipe(renderer, scene, options, &s, false);
     ang_slice_explain_pass(plan, ANG_SLICE_INNER, &recipe);
     ang_slice_explain_pass(plan, ANG_SLICE_FACES, &recipe);
@@ -208,8 +196,6 @@ bool ang_slicing_explain(ang_renderer *renderer, const ang_scene *scene, const a
         ang_plan_use(plan, "early termination: where opacity reaches %g the depth test rejects what lies behind",
                      options->termination);
         ang_slice_explain_pass(plan, ANG_SLICE_FINISH, &recipe);
-    } else {
-        ang_plan_leave_out(plan, "early termination by the depth test", "%s", s.why_no_finish);
     }
     if (ang_slice_needs_resolve(scene))
         ang_slice_explain_pass(plan, ANG_SLICE_RESOLVE, &recipe);

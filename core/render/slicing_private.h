@@ -39,8 +39,9 @@ typedef struct ang_slicing {
     ang_visibility visibility;
     ang_brick_needs needs;
     ang_slice_order order;
-    bool skips, finishes;
-    const char *why_no_skip, *why_no_finish;
+    ang_plan_facts facts;
+    ang_plan_decisions plan, plan_at_faces;
+    bool skips, finishes; /* what `plan` says, in short */
     double octree_ms;
 } ang_slicing;
 

@@ -14,6 +14,42 @@ static bool is_current(const ang_table_texture *texture, const ang_transfer *tra
            memcmp(texture->points, transfer->points, transfer->count * sizeof *transfer->points) == 0;
 }
 
+/* Whether all intervals in which anything has extinction have one colour; where nothing has, any does. */
+static bool find_colour(ang_table_texture *texture) {
+    const float *colour = NULL, *entry = texture->tables->entries;
+    for (int i = 0; i < texture->tables->intervals; i++, entry += 8) {
+        if (!(entry[3] > 0 || entry[7] > 0)) continue;
+        if (!colour) colour = entry;
+        if (memcmp(colour, entry, 3 * sizeof *entry) != 0 || memcmp(colour, entry + 4, 3 * sizeof *entry) != 0)
+            return false;
+    }
+    for (int k = 0; k < 3; k++) texture->colour[k] = colour ? colour[k] : 0;
+    return true;
+}
+
+static void make_buffer(unsigned *buffer, unsigned *texture, GLenum format, const float *values, size_t count) {
+    glGenBuffers(1, buffer);
+    glBindBuffer(GL_TEXTURE_BUFFER, *buffer);
+    glBufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)(count * sizeof *values), values, GL_STATIC_DRAW);
+    glGenTextures(1, texture);
+    glBindTexture(GL_TEXTURE_BUFFER, *texture);
+    glTexBuffer(GL_TEXTURE_BUFFER, format, *buffer);
+    glBindTexture(GL_TEXTURE_BUFFER, 0);
+    glBindBuffer(GL_TEXTURE_BUFFER, 0);
+}
+
+static bool upload(ang_table_texture *texture, ang_error *err) {
+    size_t entries = 2 * (size_t)texture->tables->intervals;
+    make_buffer(&texture->buffer, &texture->texture, GL_RGBA32F, texture->tables->entries, 4 * entries);
+    if (!texture->one_colour) return true;
+    float *alone = ang_alloc(entries, sizeof *alone, "table of extinctions", err);
+    if (!alone) return false;
+    for (size_t i = 0; i < entries; i++) alone[i] = texture->tables->entries[4 * i + 3];
+    make_buffer(&texture->extinctions, &texture->extinction_texture, GL_R32F, alone, entries);
+    free(alone);
+    return true;
+}
+
 bool ang_table_texture_update(ang_table_texture *texture, ang_gl *gl, const ang_transfer *transfer,
                               const ang_volume *volume, ang_error *err) {
     if (is_current(texture, transfer)) return true;
@@ -40,16 +76,8 @@ bool ang_table_texture_update(ang_table_texture *texture, ang_gl *gl, const ang_
                                    .by_extinction = transfer->by_extinction};
     for (int i = 0; i < 2 * tables->intervals; i++)
         texture->greatest = fmax(texture->greatest, tables->entries[4 * i + 3]);
-    glGenBuffers(1, &texture->buffer);
-    glBindBuffer(GL_TEXTURE_BUFFER, texture->buffer);
-    glBufferData(GL_TEXTURE_BUFFER, (GLsizeiptr)((size_t)tables->intervals * 8 * sizeof(float)), tables->entries,
-                 GL_STATIC_DRAW);
-    glGenTextures(1, &texture->texture);
-    glBindTexture(GL_TEXTURE_BUFFER, texture->texture);
-    glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, texture->buffer);
-    glBindTexture(GL_TEXTURE_BUFFER, 0);
-    glBindBuffer(GL_TEXTURE_BUFFER, 0);
-    if (ang_gl_check(gl, err)) return true;
+    texture->one_colour = find_colour(texture);
+    if (upload(texture, err) && ang_gl_check(gl, err)) return true;
     ang_table_texture_destroy(texture);
     return false;
 }
@@ -57,15 +85,24 @@ bool ang_table_texture_update(ang_table_texture *texture, ang_gl *gl, const ang_
 void ang_table_texture_destroy(ang_table_texture *texture) {
     if (texture->texture) glDeleteTextures(1, &texture->texture);
     if (texture->buffer) glDeleteBuffers(1, &texture->buffer);
+    if (texture->extinction_texture) glDeleteTextures(1, &texture->extinction_texture);
+    if (texture->extinctions) glDeleteBuffers(1, &texture->extinctions);
     if (texture->tables) ang_tables_free(texture->tables);
     free(texture->points);
     *texture = (ang_table_texture){0};
 }
 
-void ang_table_texture_bind(const ang_table_texture *texture, unsigned program, int unit) {
+void ang_table_texture_bind(const ang_table_texture *texture, unsigned program, int unit, int alone) {
     glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
     glBindTexture(GL_TEXTURE_BUFFER, texture->texture);
     ang_uniform_int(program, "transfer_table", unit);
+    if (texture->one_colour) {
+        glActiveTexture(GL_TEXTURE0 + (GLenum)alone);
+        glBindTexture(GL_TEXTURE_BUFFER, texture->extinction_texture);
+        ang_uniform_int(program, "transfer_extinction", alone);
+        ang_uniform_vec3(program, "transfer_colour",
+                         (ang_vec3){texture->colour[0], texture->colour[1], texture->colour[2]});
+    }
     ang_uniform_float(program, "transfer_first", texture->tables->first);
     ang_uniform_float(program, "transfer_per_value", texture->tables->per_value);
     ang_uniform_int(program, "transfer_intervals", texture->tables->intervals);

@@ -9,9 +9,12 @@
 /* The entries of ang_transfer_tables as a buffer texture of GL_RGBA32F. Zero-initialise; owns all. */
 typedef struct ang_table_texture {
     unsigned buffer, texture;
-    ang_transfer_tables *tables; /* NULL before the first update */
-    double greatest;             /* extinction per mm of any entry */
-    ang_transfer_point *points;  /* what they were made from */
+    unsigned extinctions, extinction_texture; /* GL_R32F: extinction alone; where one_colour, else 0 */
+    ang_transfer_tables *tables;              /* NULL before the first update */
+    double greatest;                          /* extinction per mm of any entry */
+    bool one_colour;                          /* whatever has extinction has the same colour... */
+    double colour[3];                         /* ... which is this */
+    ang_transfer_point *points;               /* what they were made from */
     size_t count;
     double unit_distance;
     bool by_extinction;
@@ -23,7 +26,8 @@ bool ang_table_texture_update(ang_table_texture *texture, ang_gl *gl, const ang_
                               const ang_volume *volume, ang_error *err);
 /* Deletes everything. The context must be current. */
 void ang_table_texture_destroy(ang_table_texture *texture);
-/* Sets the uniforms of transfer.glsl and binds the table to texture unit `unit`. */
-void ang_table_texture_bind(const ang_table_texture *texture, unsigned program, int unit);
+/* Sets the uniforms of transfer.glsl and binds the table to texture unit `unit`; for transfer_one.glsl, too, what is
+ * there where one_colour, to unit `alone`. */
+void ang_table_texture_bind(const ang_table_texture *texture, unsigned program, int unit, int alone);
 
 #endif

@@ -3,6 +3,7 @@
 #include "core/base/memory.h"
 
 #include <glad/gl.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,6 +76,14 @@ static void fill_weight(const ang_volume_texture *texture, const ang_volume *vol
     }
 }
 
+static bool check_upload(const ang_volume_texture *texture, ang_gl *gl, ang_error *err) {
+    const int *dims = texture->dims;
+    ang_error cause;
+    if (ang_gl_check(gl, &cause)) return true;
+    return ang_fail(err, ANG_LIMIT, "texture of %dx%dx%d voxels could not be uploaded (%.300s); lower --gpu-memory",
+                    dims[0], dims[1], dims[2], cause.message);
+}
+
 /* Where `fill` is NULL the volume's own values are uploaded as they lie in memory. */
 static bool upload(const ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, slab_fill *fill,
                    ang_error *err) {
@@ -97,27 +106,29 @@ static bool upload(const ang_volume_texture *texture, ang_gl *gl, const ang_volu
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     free(made);
-    ang_error cause;
-    if (ang_gl_check(gl, &cause)) return true;
-    return ang_fail(err, ANG_LIMIT, "texture of %dx%dx%d voxels could not be uploaded (%.300s); lower --gpu-memory",
-                    dims[0], dims[1], dims[2], cause.message);
+    return check_upload(texture, gl, err);
+}
+
+static bool reserve(unsigned *name, const ang_volume_texture *texture, ang_gl *gl, ang_error *err) {
+    const int *dims = texture->dims;
+    if (*name) return true;
+    if (!ang_gl_check(gl, err) || !ang_volume_texture_fits(gl, dims, err)) return false;
+    glGenTextures(1, name);
+    glBindTexture(GL_TEXTURE_3D, *name);
+    glTexStorage3D(GL_TEXTURE_3D, 1, GL_R16, dims[0], dims[1], dims[2]);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    glBindTexture(GL_TEXTURE_3D, 0);
+    return true;
 }
 
 /* Makes the texture where there is none yet, and fills it. */
 static bool make_texture(unsigned *name, const ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume,
                          slab_fill *fill, ang_error *err) {
-    const int *dims = texture->dims;
-    if (!*name) {
-        if (!ang_gl_check(gl, err) || !ang_volume_texture_fits(gl, dims, err)) return false;
-        glGenTextures(1, name);
-        glBindTexture(GL_TEXTURE_3D, *name);
-        glTexStorage3D(GL_TEXTURE_3D, 1, GL_R16, dims[0], dims[1], dims[2]);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
-    }
+    if (!reserve(name, texture, gl, err)) return false;
     glBindTexture(GL_TEXTURE_3D, *name);
     bool ok = upload(texture, gl, volume, fill, err);
     glBindTexture(GL_TEXTURE_3D, 0);
@@ -129,7 +140,73 @@ static bool make_texture(unsigned *name, const ang_volume_texture *texture, ang_
 }
 
 bool ang_volume_texture_create(ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, ang_error *err) {
-    return ang_volume_texture_set_part(texture, gl, volume, (const int[3]){0, 0, 0}, volume->dims, err);
+    return ang_volume_texture_reserve(texture, gl, volume, err) &&
+           ang_volume_texture_hold(texture, gl, volume, (const int[3]){0, 0, 0}, volume->dims, err);
+}
+
+bool ang_volume_texture_reserve(ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, ang_error *err) {
+    ang_volume_texture_destroy(texture);
+    *texture = (ang_volume_texture){.dims = {volume->dims[0], volume->dims[1], volume->dims[2]}};
+    return reserve(&texture->values, texture, gl, err) && ang_gl_check(gl, err);
+}
+
+/* A box of voxels as it lies in memory. */
+static void upload_box(const ang_volume *volume, const int first[3], const int end[3]) {
+    const int *dims = volume->dims;
+    size_t plane = (size_t)dims[0] * (size_t)dims[1];
+    int at_once = (int)fmax((double)slab_bytes / sizeof(uint16_t) / (double)plane, 1);
+    for (int z = first[2]; z < end[2]; z += at_once) {
+        int depth = end[2] - z < at_once ? end[2] - z : at_once;
+        const uint16_t *from = volume->data + (size_t)first[0] + (size_t)dims[0] * (size_t)first[1] + plane * (size_t)z;
+        glTexSubImage3D(GL_TEXTURE_3D, 0, first[0], first[1], z, end[0] - first[0], end[1] - first[1], depth, GL_RED,
+                        GL_UNSIGNED_SHORT, from);
+    }
+}
+
+/* What of the box [first, end) lies outside the box [held, held_end) inside it: below and above along z, then y, x. */
+static void upload_around(const ang_volume *volume, const int first[3], const int end[3], const int held[3],
+                          const int held_end[3]) {
+    int from[3] = {first[0], first[1], first[2]}, to[3] = {end[0], end[1], end[2]};
+    for (int axis = 2; axis >= 0; axis--) {
+        int above[3] = {from[0], from[1], from[2]}, below_end[3] = {to[0], to[1], to[2]};
+        below_end[axis] = held[axis];
+        above[axis] = held_end[axis];
+        if (from[axis] < held[axis]) upload_box(volume, from, below_end);
+        if (held_end[axis] < to[axis]) upload_box(volume, above, to);
+        from[axis] = held[axis];
+        to[axis] = held_end[axis];
+    }
+}
+
+bool ang_volume_texture_hold(ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, const int first[3],
+                             const int end[3], ang_error *err) {
+    int from[3], to[3], *held = texture->held_first, *held_end = texture->held_end;
+    bool empty = held_end[0] <= held[0], grows = false;
+    for (int axis = 0; axis < 3; axis++) {
+        from[axis] = first[axis] > 0 ? first[axis] : 0;
+        to[axis] = end[axis] < volume->dims[axis] ? end[axis] : volume->dims[axis];
+        if (to[axis] <= from[axis]) return true;
+        if (!empty && held[axis] < from[axis]) from[axis] = held[axis];
+        if (!empty && held_end[axis] > to[axis]) to[axis] = held_end[axis];
+        grows = grows || empty || from[axis] < held[axis] || to[axis] > held_end[axis];
+    }
+    if (!grows) return true;
+    glBindTexture(GL_TEXTURE_3D, texture->values);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, volume->dims[0]);
+    glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, volume->dims[1]);
+    if (empty)
+        upload_box(volume, from, to);
+    else
+        upload_around(volume, from, to, held, held_end);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
+    glBindTexture(GL_TEXTURE_3D, 0);
+    if (!check_upload(texture, gl, err)) return false;
+    memcpy(held, from, sizeof from);
+    memcpy(held_end, to, sizeof to);
+    return true;
 }
 
 bool ang_volume_texture_set_part(ang_volume_texture *texture, ang_gl *gl, const ang_volume *volume, const int first[3],

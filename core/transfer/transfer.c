@@ -253,6 +253,11 @@ void ang_transfer_free(ang_transfer *transfer) {
     free(transfer);
 }
 
+bool ang_transfer_same(const ang_transfer *a, const ang_transfer *b) {
+    return a->count == b->count && memcmp(&a->unit_distance, &b->unit_distance, sizeof a->unit_distance) == 0 &&
+           a->by_extinction == b->by_extinction && memcmp(a->points, b->points, a->count * sizeof *a->points) == 0;
+}
+
 ang_transfer *ang_transfer_shifted(const ang_transfer *transfer, double shift, ang_error *err) {
     ang_transfer_point *points = ang_alloc(transfer->count, sizeof *points, "transfer function", err);
     if (!points) return NULL;

@@ -51,6 +51,8 @@ ang_transfer *ang_transfer_create(const ang_transfer_point *points, size_t count
 void ang_transfer_free(ang_transfer *transfer);
 /* A copy whose points are moved by `shift` HU. */
 ang_transfer *ang_transfer_shifted(const ang_transfer *transfer, double shift, ang_error *err);
+/* Whether both have the same points and unit. */
+bool ang_transfer_same(const ang_transfer *a, const ang_transfer *b);
 
 /* Opacity per unit_distance (0..1), colour and extinction per mm at a HU value. Extinction is
  * -log1p(-opacity)/unit_distance, infinity at opacity 1 (numerics.md). */

@@ -1,0 +1,59 @@
+#include "core/render/facts.h"
+
+#include "core/render/context_private.h"
+#include "core/render/scene_parts.h"
+
+/* Whether a ray may start inside the volume: the near plane reaches into the clip box. */
+static bool may_start_inside(const ang_ray_frame *frame) {
+    for (int corner = 0; corner < 8; corner++) {
+        ang_vec3 at = {corner & 1 ? frame->upper.x : frame->lower.x, corner & 2 ? frame->upper.y : frame->lower.y,
+                       corner & 4 ? frame->upper.z : frame->lower.z};
+        ang_vec3 from = ang_vec3_sub(ang_mat4_direction(&frame->to_mm, at), frame->origin_mm);
+        if (ang_vec3_dot(from, frame->axis_mm) < frame->near_depth + 1e-3 * fabs(frame->near_depth)) return true;
+    }
+    return false;
+}
+
+ang_plan_facts ang_facts_make(ang_drawing drawing, const ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
+                              const ang_render_options *options, const ang_ray_frame *frame,
+                              const ang_table_texture *table, double sample_mm) {
+    ang_clip_space space = ang_clip_space_make(frame, scene->width, scene->height);
+    bool tabled = ang_scene_needs_table(scene);
+    return (ang_plan_facts){
+        .drawing = drawing,
+        .mode = scene->mode,
+        .phong = scene->mode == ANG_MODE_DVR && scene->shading == ANG_SHADING_PHONG,
+        .parallel = !frame->perspective,
+        .pixels = (double)scene->width * scene->height,
+        .jumps = tabled && ang_transfer_jumps(scene->transfer),
+        .one_colour = tabled && table->one_colour,
+        .extinction = tabled ? table->greatest : 0,
+        .longest_mm = 2 * ang_volume_half_diagonal(volume),
+        .sample_mm = sample_mm,
+        .ahead = ang_clip_space_ahead(&space, frame->lower, frame->upper),
+        .starts_inside = may_start_inside(frame),
+        .bytes = (double)ang_volume_count(volume) * sizeof *volume->data,
+        .share_uploaded = 1,
+        .hull_fits = true,
+        .gl = gl != NULL,
+        .software = gl && ang_gl_is_software(gl),
+        .gradients_fit = true,
+        .memory = (double)options->gpu_memory,
+        .termination = options->termination,
+        .no_skip = options->no_skip,
+        .manual_filter = options->manual_filter,
+        .separate_passes = options->separate_passes,
+        .gradients = options->gradients,
+        .skipping = options->skipping,
+        .forced = options->forced,
+    };
+}
+
+ang_vec3 ang_facts_margin(const ang_ray_frame *frame, double length) {
+    double margin[3];
+    for (int axis = 0; axis < 3; axis++) {
+        const double *row = frame->to_index.m[axis];
+        margin[axis] = length * sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+    }
+    return (ang_vec3){margin[0], margin[1], margin[2]};
+}
