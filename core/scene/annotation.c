@@ -50,7 +50,8 @@ static double scale_at_centre(const ang_scene *scene) {
     double height_mm = camera->projection == ANG_PERSPECTIVE
                            ? 2 * camera->focus_mm * tan(camera->fov_deg * (M_PI / 360))
                            : 2 * camera->half_height;
-    double scale = height_mm / scene->height;
+    const ang_sampling *sampling = &scene->sampling;
+    double scale = sampling->stride > 0 ? height_mm / sampling->height * sampling->stride : height_mm / scene->height;
     return scale > 0 && isfinite(scale) ? scale : NAN; /* a centre behind the eye has no scale */
 }
 

@@ -132,6 +132,22 @@ bool ang_scene_check(const ang_scene *scene, ang_error *err) {
     return true;
 }
 
+static int pixels_left(int size, int stride, int first) {
+    return first < 0 || first >= size ? 0 : (size - first - 1) / stride + 1;
+}
+
+ang_scene ang_scene_subset(const ang_scene *scene, int stride, int first_x, int first_y) {
+    ang_scene subset = *scene;
+    const ang_sampling whole = {1, 0, 0, scene->width, scene->height};
+    const ang_sampling *from = scene->sampling.stride > 0 ? &scene->sampling : &whole;
+    if (stride < 1) stride = 1;
+    subset.sampling = (ang_sampling){from->stride * stride, from->first_x + from->stride * first_x,
+                                     from->first_y + from->stride * first_y, from->width, from->height};
+    subset.width = pixels_left(scene->width, stride, first_x);
+    subset.height = pixels_left(scene->height, stride, first_y);
+    return subset;
+}
+
 bool ang_scene_clip_parse(const char *text, const ang_volume *volume, ang_scene *scene, ang_error *err) {
     double bound[6];
     ang_vec3 lower, upper;
@@ -169,6 +185,15 @@ double ang_scene_grey(const ang_scene *scene, double hu) {
     return fmin(fmax((hu - scene->window_centre) / scene->window_width + 0.5, 0), 1);
 }
 
+/* Moves the plane of p so that pixels are those of the sampling: their centres stay where they are. */
+static void take_samples(ang_ray_frame *frame, const ang_sampling *sampling) {
+    double left = sampling->first_x + 0.5 - 0.5 * sampling->stride;
+    double top = sampling->first_y + 0.5 - 0.5 * sampling->stride;
+    frame->origin_mm = ang_vec3_along(ang_vec3_along(frame->origin_mm, frame->step_x_mm, left), frame->step_y_mm, top);
+    frame->step_x_mm = ang_vec3_scale(frame->step_x_mm, sampling->stride);
+    frame->step_y_mm = ang_vec3_scale(frame->step_y_mm, sampling->stride);
+}
+
 bool ang_ray_frame_make(const ang_volume *volume, const ang_scene *scene, ang_ray_frame *frame, ang_error *err) {
     *frame = (ang_ray_frame){.to_mm = volume->affine};
     if (!ang_mat4_inverse(&volume->affine, &frame->to_index))
@@ -187,12 +212,14 @@ bool ang_ray_frame_make(const ang_volume *volume, const ang_scene *scene, ang_ra
     double depth = -ang_vec3_dot(eye, camera->forward);
     if (frame->perspective) depth = fmax(depth, fmax(camera->near_mm, 1e-3 * ang_volume_half_diagonal(volume)));
     double half = frame->perspective ? depth * tan(camera->fov_deg * (M_PI / 360)) : camera->half_height;
-    double pixel = 2 * half / scene->height;
+    bool sampled = scene->sampling.stride > 0;
+    double pixel = 2 * half / (sampled ? scene->sampling.height : scene->height);
     ang_vec3 plane = ang_vec3_along(eye, camera->forward, depth);
-    plane = ang_vec3_along(plane, camera->right, -pixel * scene->width / 2);
+    plane = ang_vec3_along(plane, camera->right, -pixel * (sampled ? scene->sampling.width : scene->width) / 2);
     frame->origin_mm = ang_vec3_along(plane, camera->up, half);
     frame->step_x_mm = ang_vec3_scale(camera->right, pixel);
     frame->step_y_mm = ang_vec3_scale(camera->up, -pixel);
+    if (sampled) take_samples(frame, &scene->sampling);
     frame->eye_mm = eye;
     frame->axis_mm = camera->forward;
     frame->near_depth = camera->near_mm - depth;

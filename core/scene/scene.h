@@ -57,9 +57,17 @@ ang_camera ang_camera_for(const ang_volume *volume, const ang_view *view);
 
 typedef struct ang_objects ang_objects; /* core/scene/objects.h */
 
+/* Which pixels of a larger picture are drawn: its columns first_x + i * stride and rows first_y + j * stride. */
+typedef struct ang_sampling {
+    int stride;           /* pixels, >= 1; default 0: the picture is drawn as a whole and the rest means nothing */
+    int first_x, first_y; /* pixels from the larger picture's left top */
+    int width, height;    /* pixels: the larger picture's size */
+} ang_sampling;
+
 /* Everything that decides what the picture shows. Borrows `transfer` and `objects`. */
 typedef struct ang_scene {
-    int width, height; /* pixels */
+    int width, height; /* pixels that are drawn */
+    ang_sampling sampling;
     ang_camera camera;
     ang_vec3 clip_lower, clip_upper; /* voxel index space; within ang_volume_box */
     ang_mode mode;
@@ -77,6 +85,11 @@ ang_scene ang_scene_default(const ang_volume *volume);
 /* Whether the scene can be drawn: dvr and iso need a transfer function, iso a finite value, and the size must be
  * positive. False with ANG_USAGE. Every method asks this first. */
 bool ang_scene_check(const ang_scene *scene, ang_error *err);
+/* The scene whose pixel (i, j) is the scene's pixel (first_x + i * stride, first_y + j * stride): the same ray through
+ * the same centre, whatever the method, and slicing's planes are the same. As many pixels as there are; a stride below
+ * 1 counts as 1, a first pixel outside the picture leaves none, which ang_scene_check refuses. Subsets of subsets are
+ * subsets. Pure. */
+ang_scene ang_scene_subset(const ang_scene *scene, int stride, int first_x, int first_y);
 /* "x0,x1,y0,y1,z0,z1" in mm from the first voxel, or each with % of the box. Refused with ANG_USAGE where empty or not
  * numbers; limited to the box. */
 bool ang_scene_clip_parse(const char *text, const ang_volume *volume, ang_scene *scene, ang_error *err);

@@ -189,12 +189,74 @@ static void scenes_that_cannot_be_drawn_are_refused(void **state) {
     ang_volume_free(volume);
 }
 
+static void check_same_ray(const ang_ray *a, const ang_ray *b) {
+    for (int axis = 0; axis < 3; axis++) {
+        assert_close(ang_vec3_at(a->origin, axis), ang_vec3_at(b->origin, axis), 1e-11);
+        assert_close(ang_vec3_at(a->direction, axis), ang_vec3_at(b->direction, axis), 1e-13);
+        assert_close(ang_vec3_at(a->direction_mm, axis), ang_vec3_at(b->direction_mm, axis), 1e-13);
+    }
+    assert_int_equal(a->enter < a->leave, b->enter < b->leave);
+    if (!(a->enter < a->leave)) return;
+    assert_close(a->enter, b->enter, 1e-9);
+    assert_close(a->leave, b->leave, 1e-9);
+}
+
+static void a_subset_has_the_rays_of_the_picture(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    static const int subsets[][3] = {{1, 0, 0}, {1, 7, 3}, {4, 0, 0}, {5, 4, 2}, {50, 13, 1}};
+    for (int parallel = 0; parallel < 2; parallel++) {
+        ang_view view = {.azimuth_deg = 33, .elevation_deg = 21, .roll_deg = 10, .zoom = 1.7, .fov_deg = 30};
+        view.projection = parallel ? ANG_PARALLEL : ANG_PERSPECTIVE;
+        ang_scene scene = ang_scene_default(volume);
+        scene.camera = ang_camera_for(volume, &view);
+        scene.width = 61;
+        scene.height = 48;
+        ang_ray_frame whole, part;
+        assert_true(ang_ray_frame_make(volume, &scene, &whole, NULL));
+        for (size_t s = 0; s < sizeof subsets / sizeof *subsets; s++) {
+            int stride = subsets[s][0], x0 = subsets[s][1], y0 = subsets[s][2], count = 0;
+            ang_scene subset = ang_scene_subset(&scene, stride, x0, y0);
+            /* Every pixel of that grid which the picture has, and no other. */
+            assert_true(x0 + (subset.width - 1) * stride < 61 && x0 + subset.width * stride >= 61);
+            assert_true(y0 + (subset.height - 1) * stride < 48 && y0 + subset.height * stride >= 48);
+            assert_true(ang_ray_frame_make(volume, &subset, &part, NULL));
+            for (int j = 0; j < subset.height; j++)
+                for (int i = 0; i < subset.width; i++, count++) {
+                    ang_ray a = ang_ray_through(&part, i + 0.5, j + 0.5);
+                    ang_ray b = ang_ray_through(&whole, x0 + i * stride + 0.5, y0 + j * stride + 0.5);
+                    check_same_ray(&a, &b);
+                }
+            assert_true(count > 0);
+        }
+    }
+    ang_volume_free(volume);
+}
+
+static void a_subset_of_a_subset_is_a_subset(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    ang_scene scene = ang_scene_default(volume);
+    ang_scene once = ang_scene_subset(&scene, 3, 2, 1), twice = ang_scene_subset(&once, 4, 1, 5);
+    ang_scene same = ang_scene_subset(&scene, 12, 5, 16);
+    assert_int_equal(twice.width, same.width);
+    assert_int_equal(twice.height, same.height);
+    assert_memory_equal(&twice.sampling, &same.sampling, sizeof same.sampling);
+    scene.mode = once.mode = ANG_MODE_MIP;
+    assert_true(ang_scene_check(&once, NULL));
+    ang_scene none = ang_scene_subset(&scene, 3, scene.width, 0);
+    assert_false(ang_scene_check(&none, NULL));
+    ang_volume_free(volume);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(named_views_stand_where_they_say),
         cmocka_unit_test(standard_camera_is_that_of_the_design),
         cmocka_unit_test(bad_views_are_refused),
         cmocka_unit_test(scenes_that_cannot_be_drawn_are_refused),
+        cmocka_unit_test(a_subset_has_the_rays_of_the_picture),
+        cmocka_unit_test(a_subset_of_a_subset_is_a_subset),
         cmocka_unit_test(clip_boxes_are_read_in_mm_and_percent),
         cmocka_unit_test(rays_enter_and_leave_where_a_plain_computation_says),
         cmocka_unit_test(pictures_are_composited_over_their_background),
