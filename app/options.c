@@ -128,7 +128,7 @@ static const option_spec table[] = {
     INTEGER_OPTION("threads", READS | ANG_VERB_PHANTOM | ANG_VERB_SELFCHECK, threads, 0, 256, "0",
                    "processor threads; 0: all"),
     FLAG_OPTION("annotate", 0, ANG_VERB_RENDER, annotate,
-                "draw orientation letters, a millimetre bar, preset and mode"),
+                "draw orientation letters, a millimetre bar, preset, mode, and how wrong the picture may be"),
     FLAG_OPTION("strict", 0, READS, strict, "refuse input (exit code 4) where loading it gives a warning"),
     FLAG_OPTION("keep-phi", 0, READS, keep_phi, "let what may identify a patient into the output"),
     TEXT_OPTION("raw-dims", READS, raw_dims, "XxYxZ", NULL, "size of raw input, x fastest"),

@@ -239,11 +239,30 @@ static void frame_path(const char *output, int frame, int frames, char *path, si
         snprintf(path, size, "%.*s-%04d%s", (int)(dot - output), output, frame + 1, dot);
 }
 
-static bool write_picture(session *run, const char *path, ang_error *err) {
+/* How wrong the picture may be: of the first one for the JSON, of each one for its annotation. */
+static bool estimate_error(session *run, int frame, ang_error_estimate *estimate, ang_error *err) {
+    const ang_options *options = run->options;
+    bool wanted = options->annotate || (options->json && frame == 0);
+    *estimate = (ang_error_estimate){.levels = NAN};
+    if (!wanted || run->picture.lookups) return true;
+    if (!ang_error_estimate_make(run->method, run->renderer, &run->picture.scene, &run->picture.render, estimate,
+                                 ang_app_progress_sink(run->progress), err))
+        return false;
+    if (frame > 0) return true;
+    run->summary.estimated = true;
+    run->summary.error = *estimate;
+    run->summary.quantisation = ang_image_rounding(options->output, run->picture.scene.background);
+    return true;
+}
+
+static bool write_picture(session *run, const char *path, const ang_error_estimate *estimate, double milliseconds,
+                          ang_error *err) {
     const ang_scene *scene = &run->picture.scene;
     if (run->options->annotate || scene->objects) {
         ang_annotation annotation = run->options->annotate ? ang_annotation_make(scene, run->picture.preset->name)
                                                            : ang_annotation_of_objects(scene);
+        if (run->options->annotate && !run->picture.lookups)
+            ang_annotation_add_error(&annotation, estimate->levels, estimate->rms, milliseconds);
         if (!ang_image_annotate(&run->image, &annotation, &run->summary.warnings, err)) return false;
     }
     return ang_image_write(path, &run->image, run->picture.scene.background, err);
@@ -291,7 +310,9 @@ static bool render_all(session *run, ang_error *err) {
             note_flat(run);
         }
         frame_path(options->output, frame, options->frames, path, sizeof path);
-        if (!write_picture(run, path, err)) return false;
+        ang_error_estimate estimate;
+        if (!estimate_error(run, frame, &estimate, err)) return false;
+        if (!write_picture(run, path, &estimate, milliseconds, err)) return false;
         if (!options->quiet && options->verbose) fprintf(stderr, "%s: %.0f ms\n", path, milliseconds);
     }
     return true;

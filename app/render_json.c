@@ -125,21 +125,29 @@ static cJSON *picture_json(const ang_picture *picture) {
     return out;
 }
 
+/* Null, not zero, for what is not known. */
 static cJSON *error_json(const ang_picture *picture, const ang_method *method, const ang_render_summary *summary) {
     cJSON *error = cJSON_CreateObject();
-    const ang_scene *scene = &picture->scene;
-    bool truth = strcmp(method->name, "reference") == 0;
-    /* The step's error is not estimated yet: null, not zero. */
-    ang_json_add_number(error, "estimate", truth ? 0 : NAN);
+    bool truth = method == &ang_method_reference, known = summary->estimated;
+    const ang_error_estimate *e = &summary->error;
+    ang_json_add_number(error, "estimate", known ? e->levels : NAN);
     ang_json_add_number(error, "bound", truth ? 0 : NAN);
     ang_json_add_number(error, "step_mm", truth ? NAN : summary->stats.step_mm);
-    bool terminated = !truth && scene->mode == ANG_MODE_DVR;
-    /* numerics.md: |dC| <= (1 - a) max c, in levels; shading adds at most its specular part. */
-    double brightest = scene->shading == ANG_SHADING_PHONG
-                           ? fmax(1, scene->phong.ambient + scene->phong.diffuse + scene->phong.specular)
-                           : 1;
     ang_json_add_number(error, "termination_bound",
-                        terminated ? 255 * brightest * (1 - picture->render.termination) : 0);
+                        ang_error_termination_bound(method, &picture->scene, picture->render.termination));
+    cJSON *parts = cJSON_AddObjectToObject(error, "parts");
+    ang_json_add_number(parts, "step", known ? e->step : NAN);
+    ang_json_add_number(parts, "termination", known ? e->termination : NAN);
+    ang_json_add_number(parts, "filtering", known ? e->filtering : NAN);
+    ang_json_add_number(parts, "arithmetic", known ? e->arithmetic : NAN);
+    ang_json_add_number(error, "quantisation", summary->quantisation);
+    ang_json_add_number(error, "rms", known ? e->rms : NAN);
+    ang_json_add_number(error, "p999", known ? e->p999 : NAN);
+    ang_json_add_number(error, "flipped", known ? e->flipped : NAN);
+    ang_json_add_number(error, "order", known ? e->order : NAN);
+    ang_json_add_number(error, "pixels", known ? e->pixels : NAN);
+    ang_json_add_number(error, "ms", known ? e->ms : NAN);
+    if (known && e->why) cJSON_AddStringToObject(error, "why", e->why);
     return error;
 }
 

@@ -3,7 +3,7 @@
 #define ANG_APP_RENDER_JSON_H
 
 #include "app/picture.h"
-#include "core/render/method.h"
+#include "core/error/estimate.h"
 
 /* Costs of one call. Times in ms; NaN or 0 where not measured. Borrows the gl strings; owns
  * `plan` and `warnings`. */
@@ -11,7 +11,10 @@ typedef struct ang_render_summary {
     double load_ms, upload_ms, first_frame_ms;
     int timed_frames; /* frames behind the three below */
     double median_ms, min_ms, max_ms;
-    ang_frame_stats stats; /* of the first picture */
+    ang_frame_stats stats;    /* of the first picture */
+    bool estimated;           /* whether the next is there */
+    ang_error_estimate error; /* of the first picture */
+    double quantisation;      /* levels: what writing it rounds by at most */
     ang_plan plan;
     const char *gl_backend, *gl_renderer, *gl_version; /* NULL without GL */
     ang_notes warnings;

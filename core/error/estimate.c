@@ -71,13 +71,17 @@ static bool draw_all(pictures *p, const ang_scene *subset, ang_error *err) {
     return draw(p, &few, 1, false, err) && draw(p, &few, 1, true, err);
 }
 
-/* What rays that have ended leave unseen: an opacity of A lets at most 1 - A of anything behind through. */
-static double unseen(const ang_image *image, double termination) {
-    double most = 0;
-    for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
+/* What rays that have ended leave unseen, at most and as an RMS over all pixels: an opacity of A lets at most 1 - A of
+ * anything behind through. */
+static double unseen(const ang_image *image, double termination, double *rms) {
+    double most = 0, squares = 0, pixels = (double)image->width * image->height;
+    for (size_t i = 0; i < (size_t)pixels; i++) {
         double opacity = (double)image->rgba[4 * i + 3];
-        if (opacity >= termination) most = fmax(most, 1 - opacity);
+        if (opacity < termination) continue;
+        most = fmax(most, 1 - opacity);
+        squares += (1 - opacity) * (1 - opacity);
     }
+    *rms = sqrt(squares / pixels);
     return most;
 }
 
@@ -96,17 +100,18 @@ static bool gather(const pictures *p, double termination_bound, ang_error_estima
         !ang_metrics_compute(&p->image[WHOLE], &p->image[QUARTER], false, &outer, err) ||
         !ang_metrics_compute(&p->image[HARDWARE], &p->image[MANUAL], false, &filtering, err))
         return false;
-    double termination = p->options->termination;
+    double termination = p->options->termination, unseen_rms = 0;
+    double unseen_most = unseen(&p->image[WHOLE], termination, &unseen_rms);
+    double scale = termination_bound > 0 ? termination_bound / (1 - termination) : 0;
     out->step = extrapolate(coarse.max, fine.max, outer.max);
-    out->rms = extrapolate(coarse.rms, fine.rms, outer.rms);
-    out->p999 = extrapolate(coarse.p999, fine.p999, outer.p999);
-    out->flipped = outer.flipped;
-    out->order = coarse.max > 0 && fine.max > 0 ? log2(coarse.max / fine.max) : NAN;
-    if (termination_bound > 0)
-        out->termination = termination_bound / (1 - termination) * unseen(&p->image[WHOLE], termination);
+    out->termination = scale * unseen_most;
     out->filtering = filtering.max;
     out->arithmetic = arithmetic_levels;
     out->levels = fmin(out->step + out->termination + out->filtering + out->arithmetic, 255);
+    out->rms = extrapolate(coarse.rms, fine.rms, outer.rms) + scale * unseen_rms + filtering.rms + arithmetic_levels;
+    out->p999 = extrapolate(coarse.p999, fine.p999, outer.p999) + out->termination + filtering.p999 + arithmetic_levels;
+    out->flipped = outer.flipped;
+    out->order = coarse.max > 0 && fine.max > 0 ? log2(coarse.max / fine.max) : NAN;
     return true;
 }
 
@@ -127,9 +132,11 @@ bool ang_error_estimate_make(const ang_method *method, ang_renderer *renderer, c
     out->pixels = subset.width * subset.height;
     out->ms = ang_now_ms() - start;
     if (scene->mode == ANG_MODE_ISO)
-        out->why = "an iso-surface jumps at its silhouettes, where one pixel may be off by any number of levels";
+        out->why =
+            "an iso-surface jumps at its silhouettes, where one pixel may be off by any number of levels: rms, p999 "
+            "and flipped judge it";
     else if (!(p.step_mm[QUARTER] < 0.3 * p.step_mm[WHOLE]))
         out->why = "the step is about the finest that the method goes, so that no finer one tells its error";
-    if (out->why) out->levels = NAN;
+    if (out->why) out->levels = out->step = NAN;
     return done;
 }

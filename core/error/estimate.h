@@ -11,15 +11,15 @@ typedef struct ang_error_estimate {
     double levels; /* estimate of the largest error of the pixels looked at, the sum of the parts below, at most 255;
                       NAN where there is none */
     /* The parts: */
-    double step;        /* samples lie apart: by Richardson from the step's half and quarter */
+    double step;        /* samples lie apart: by Richardson from the step's half and quarter; NAN where `levels` is */
     double termination; /* rays end early: at most what is left unseen behind the pixels looked at */
     double filtering;   /* texture units interpolate with few bits: against manual filtering */
     double arithmetic;  /* tables and floats: a constant, as measured */
 
-    /* Of the same pixels, from the step alone, by the same extrapolation: */
+    /* Of the same pixels, by the same ways: */
     double rms;     /* levels */
     double p999;    /* levels: what at least 99.9 % of the pixels do not exceed */
-    double flipped; /* 0..1: share of pixels off by more than 16 levels, between the step and its quarter */
+    double flipped; /* 0..1: share of pixels that differ by more than 16 levels between the step and its quarter */
     double order;   /* of convergence as observed, -log2 of what a halved step leaves of the largest error; NAN: none */
 
     int pixels;      /* looked at */

@@ -106,3 +106,19 @@ ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_na
              mode ? mode : "");
     return a;
 }
+
+/* Upwards, since a limit is stated. */
+static double two_figures(double value) {
+    if (!(value > 0)) return value;
+    double power = pow(10, floor(log10(value)) - 1);
+    return ceil(value / power * (1 - 1e-12)) * power;
+}
+
+void ang_annotation_add_error(ang_annotation *annotation, double levels, double rms, double milliseconds) {
+    char error[48] = "error not known";
+    if (isfinite(levels))
+        snprintf(error, sizeof error, "error <= %.3g levels", two_figures(levels));
+    else if (isfinite(rms))
+        snprintf(error, sizeof error, "RMS error %.2g levels", two_figures(rms));
+    snprintf(annotation->remark, sizeof annotation->remark, "%s, %.0f ms", error, milliseconds);
+}

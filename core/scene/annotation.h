@@ -27,6 +27,7 @@ typedef struct ang_annotation {
     char bar_label[48];                   /* "50 mm", in perspective "50 mm at the centre" */
     bool dark_ink;                        /* black with a light outline, for light backgrounds; else white */
     char caption[128];                    /* "cta-head, dvr" */
+    char remark[96];                      /* a line above the caption; empty: none */
     ang_annotation_label label[ANG_ANNOTATION_LABELS]; /* of the scene's objects */
     int labels;
 } ang_annotation;
@@ -43,5 +44,9 @@ double ang_round_length(double limit);
 ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_name);
 /* Only the labels of the scene's objects. */
 ang_annotation ang_annotation_of_objects(const ang_scene *scene);
+
+/* Makes the remark say how wrong the picture may be and how long it took: its largest error in levels, rounded up to
+ * two figures, or where that is NAN its RMS, or that neither is known. */
+void ang_annotation_add_error(ang_annotation *annotation, double levels, double rms, double milliseconds);
 
 #endif

@@ -93,18 +93,20 @@ static void draw_bar(sheet *sheet, const ang_annotation *a, int small) {
     draw_text(sheet, right, line, label, small, 1);
 }
 
-static void draw_caption(sheet *sheet, const char *caption, int small) {
+/* At the left bottom, as much of it as goes beside the bottom letter; number 0 is the lowest. */
+static void draw_line(sheet *sheet, const char *line, int small, int number) {
     char text[sizeof((ang_annotation *)0)->caption + 4];
-    size_t length = strlen(caption);
-    memcpy(text, caption, length + 1);
+    size_t length = strlen(line);
+    memcpy(text, line, length + 1);
     int width, top, bottom, room = sheet->width / 2 - sheet->margin - 2 * sheet->size;
     while (length > 0 && text_extent(sheet, text, small, &width, &top, &bottom) && width > room) {
         /* Whole UTF-8 characters only. */
         do length--;
-        while (length > 0 && ((unsigned char)caption[length] & 0xC0) == 0x80);
-        snprintf(text, sizeof text, "%.*s..", (int)length, caption);
+        while (length > 0 && ((unsigned char)line[length] & 0xC0) == 0x80);
+        snprintf(text, sizeof text, "%.*s..", (int)length, line);
     }
-    if (length > 0) draw_text(sheet, sheet->margin, sheet->height - sheet->margin, text, small, -1);
+    int baseline = sheet->height - sheet->margin - number * (small + small / 4);
+    if (length > 0) draw_text(sheet, sheet->margin, baseline, text, small, -1);
 }
 
 static void draw_side_letters(sheet *sheet, const ang_annotation *a) {
@@ -208,7 +210,8 @@ bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_
         if (!sides_only) {
             draw_end_letters(&sheet, annotation);
             draw_bar(&sheet, annotation, small);
-            draw_caption(&sheet, annotation->caption, small);
+            draw_line(&sheet, annotation->caption, small, 0);
+            draw_line(&sheet, annotation->remark, small, 1);
         }
         blend(&sheet, annotation->dark_ink, image, rows);
     }

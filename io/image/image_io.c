@@ -43,6 +43,12 @@ static bool refuse(const char *path, format format, ang_error *err) {
     return true;
 }
 
+double ang_image_rounding(const char *path, const double background[4]) {
+    format format = format_of(path);
+    if (format == EXR || format == PFM) return 0;
+    return format != PPM && background[3] < 1 ? 1 : 0.5;
+}
+
 bool ang_image_writable(const char *path, ang_error *err) {
     return refuse(path, format_of(path), err) && ang_file_replaceable(path, err);
 }

@@ -18,6 +18,10 @@
  * format that this build leaves out, with ANG_LIMIT where memory is out. Thread safe. */
 bool ang_image_write(const char *path, const ang_image *image, const double background[4], ang_error *err);
 
+/* What ang_image_write rounds by at most, in levels of the premultiplied picture: 0.5 for formats of 8 bits, 1 where
+ * colour and alpha are both rounded (unassociated alpha over a background that is not opaque), 0 for floats. */
+double ang_image_rounding(const char *path, const double background[4]);
+
 /* False where ang_image_write would fail as things stand, with ANG_USAGE for the extension of `path` and ANG_OUTPUT for
  * its folder: to be asked before long work. Thread safe. */
 bool ang_image_writable(const char *path, ang_error *err);

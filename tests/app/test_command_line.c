@@ -267,6 +267,51 @@ static void info_and_render_describe_the_input(void **state) {
     cJSON_Delete(json);
 }
 
+static bool is_null(const cJSON *json, const char *name) {
+    return cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(json, name));
+}
+
+/* How wrong the picture may be, by its parts; what is not known is null. */
+static void the_json_says_how_wrong_the_picture_is(void **state) {
+    (void)state;
+    static const struct {
+        const char *options;
+        bool estimated, truth;
+        double quantisation;
+    } pictures[] = {{"-o " TMP "/e.png --preset cta-head --step 1", true, false, 0.5},
+                    {"-o " TMP "/e.pfm --preset cta-head --mode mip", true, false, 0},
+                    {"-o " TMP "/e.png --preset cta-head --background 1,1,1,0", true, false, 1},
+                    {"-o " TMP "/e.png --preset ct-bone-iso", false, false, 0.5},
+                    {"-o " TMP "/e.png --preset cta-head --method reference", true, true, 0.5}};
+    for (size_t i = 0; i < sizeof pictures / sizeof *pictures; i++) {
+        char command[512];
+        snprintf(command, sizeof command, "render " PHANTOM " %s --size 40x30 --json - 2>/dev/null",
+                 pictures[i].options);
+        expect(0, command);
+        cJSON *json = parsed();
+        const cJSON *error = cJSON_GetObjectItemCaseSensitive(json, "error");
+        const cJSON *parts = cJSON_GetObjectItemCaseSensitive(error, "parts");
+        assert_true(at(error, "quantisation", -1) == pictures[i].quantisation);
+        assert_true(at(error, "pixels", -1) == 40 * 30);
+        assert_true(at(error, "rms", -1) >= 0 && at(error, "p999", -1) >= 0 && at(error, "flipped", -1) >= 0);
+        assert_true(is_null(error, "estimate") != pictures[i].estimated);
+        assert_true((cJSON_GetObjectItemCaseSensitive(error, "why") != NULL) != pictures[i].estimated);
+        if (pictures[i].estimated) {
+            double sum = at(parts, "step", -1) + at(parts, "termination", -1) + at(parts, "filtering", -1) +
+                         at(parts, "arithmetic", -1);
+            assert_true(fabs(at(error, "estimate", -1) - fmin(sum, 255)) < 1e-9);
+            assert_true(pictures[i].truth ? sum == 0 : sum > 0);
+        }
+        assert_true(is_null(error, "bound") != pictures[i].truth);
+        assert_true(pictures[i].truth ? at(error, "ms", -1) == 0 : at(error, "ms", -1) > 0);
+        cJSON_Delete(json);
+    }
+    expect(0, "render " PHANTOM " -o " TMP "/e.png --preset cta-head --mode lookups --size 40x30 --json - 2>/dev/null");
+    cJSON *json = parsed();
+    assert_true(is_null(cJSON_GetObjectItemCaseSensitive(json, "error"), "estimate"));
+    cJSON_Delete(json);
+}
+
 static void the_json_says_what_picture_it_was(void **state) {
     (void)state;
     (void)!system("mkdir -p " TMP "/doe-john; sed 's/\"name\": \"ct-mip\"/\"name\": \"mine\"/' " ANG_PRESETS
@@ -405,6 +450,7 @@ int main(void) {
         cmocka_unit_test(options_without_effect_are_said),
         cmocka_unit_test(no_gl_gives_five),
         cmocka_unit_test(info_and_render_describe_the_input),
+        cmocka_unit_test(the_json_says_how_wrong_the_picture_is),
         cmocka_unit_test(the_json_says_what_picture_it_was),
         cmocka_unit_test(nothing_of_the_patient_is_in_the_json),
         cmocka_unit_test(pictures_of_the_same_scene_are_equal),

@@ -97,6 +97,25 @@ static void no_scale_no_bar(void **state) {
     assert_true(isnan(a.mm_per_pixel) && a.bar_mm == 0 && a.bar_label[0] == '\0');
 }
 
+static void errors_are_rounded_up(void **state) {
+    (void)state;
+    static const struct {
+        double levels, rms, ms;
+        const char *remark;
+    } cases[] = {{2.0101, 1, 223.7, "error <= 2.1 levels, 224 ms"},
+                 {2.1, 1, 9, "error <= 2.1 levels, 9 ms"},
+                 {0, 0, 12345, "error <= 0 levels, 12345 ms"},
+                 {0.01234, NAN, 1, "error <= 0.013 levels, 1 ms"},
+                 {254.2, 9, 1, "error <= 260 levels, 1 ms"},
+                 {NAN, 0.301, 1, "RMS error 0.31 levels, 1 ms"},
+                 {NAN, NAN, 1, "error not known, 1 ms"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ang_annotation annotation = {.remark = "old"};
+        ang_annotation_add_error(&annotation, cases[i].levels, cases[i].rms, cases[i].ms);
+        assert_string_equal(annotation.remark, cases[i].remark);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(letters_follow_the_axes),
@@ -105,6 +124,7 @@ int main(void) {
         cmocka_unit_test(perspective_measures_at_the_centre),
         cmocka_unit_test(parallel_measures_everywhere),
         cmocka_unit_test(no_scale_no_bar),
+        cmocka_unit_test(errors_are_rounded_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
