@@ -1,6 +1,6 @@
 #include "app/picture.h"
 
-#include "app/verbs.h"
+#include "core/base/clock.h"
 #include "core/volume/histogram.h"
 #include "io/preset.h"
 
@@ -157,6 +157,34 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     if (options->bricks && !ang_app_parse_dims("bricks", options->bricks, 3, 65536, picture->render.bricks, err))
         return false;
     return true;
+}
+
+static ang_volume *load(const ang_options *options, const ang_app_progress *progress, ang_load_report *report,
+                        double *milliseconds, ang_error *err) {
+    ang_load_options how = {.series = options->series,
+                            .raw_dims = options->raw_dims,
+                            .raw_type = options->raw_type,
+                            .raw_spacing = options->raw_spacing,
+                            .threads = options->threads,
+                            .strict = options->strict};
+    double start = ang_now_ms();
+    ang_volume *volume = ang_load(options->arguments[0], &how, report, ang_app_progress_sink(progress), err);
+    *milliseconds = ang_now_ms() - start;
+    return volume;
+}
+
+bool ang_picture_open(const ang_options *options, const ang_app_progress *progress, ang_volume **volume,
+                      ang_load_report *report, ang_picture *picture, double *milliseconds, ang_error *err) {
+    if (!ang_picture_start(options, picture, err)) return false;
+    *volume = load(options, progress, report, milliseconds, err);
+    if (!*volume) return false;
+    ang_notes choices = {0};
+    bool made = ang_picture_make(options, *volume, report, picture, &choices, err);
+    /* What was chosen for the user is said at once; the loader's assumptions are for `info` and -v. */
+    if (made && !options->quiet) ang_app_say(&choices, "note: ", NULL);
+    ang_notes_append(&report->assumptions, &choices);
+    ang_notes_clear(&choices);
+    return made;
 }
 
 void ang_picture_clear(ang_picture *picture) {

@@ -3,6 +3,7 @@
 #define ANG_APP_PICTURE_H
 
 #include "app/options.h"
+#include "app/verbs.h"
 #include "core/base/notes.h"
 #include "core/render/method.h"
 #include "core/scene/objects.h"
@@ -29,6 +30,11 @@ bool ang_picture_start(const ang_options *options, ang_picture *picture, ang_err
  * `assumptions`. False with ANG_USAGE, naming the option, or what reading the preset gives. */
 bool ang_picture_make(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
                       ang_picture *picture, ang_notes *assumptions, ang_error *err);
+/* Both with the loading of options->arguments[0] between them, as every verb that draws begins. Tells the user, unless
+ * quiet, what was chosen for him, which is added to the report's assumptions. `milliseconds` is that of loading. False
+ * as these and ang_load; what has been made by then is the caller's to free. */
+bool ang_picture_open(const ang_options *options, const ang_app_progress *progress, ang_volume **volume,
+                      ang_load_report *report, ang_picture *picture, double *milliseconds, ang_error *err);
 void ang_picture_clear(ang_picture *picture);
 
 #endif

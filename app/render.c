@@ -36,20 +36,6 @@ typedef struct session {
     ang_render_summary summary;
 } session;
 
-static bool load(session *run, ang_error *err) {
-    const ang_options *options = run->options;
-    ang_load_options how = {.series = options->series,
-                            .raw_dims = options->raw_dims,
-                            .raw_type = options->raw_type,
-                            .raw_spacing = options->raw_spacing,
-                            .threads = options->threads,
-                            .strict = options->strict};
-    double start = ang_now_ms();
-    run->volume = ang_load(options->arguments[0], &how, &run->report, ang_app_progress_sink(run->progress), err);
-    run->summary.load_ms = ang_now_ms() - start;
-    return run->volume != NULL;
-}
-
 static bool open_gl(session *run, ang_backend backend, ang_error *err) {
     run->gl = ang_gl_create(backend, err);
     if (!run->gl) return false;
@@ -360,14 +346,9 @@ static bool check_outputs(const ang_options *options, ang_error *err) {
 static bool run_all(session *run, ang_error *err) {
     const ang_options *options = run->options;
     if (!check_outputs(options, err)) return false;
-    if (!ang_picture_start(options, &run->picture, err) || !load(run, err)) return false;
-    ang_notes choices = {0};
-    bool made = ang_picture_make(options, run->volume, &run->report, &run->picture, &choices, err);
-    /* What was chosen for the user is said at once; the loader's assumptions are for `info` and -v. */
-    if (made && !options->quiet) ang_app_say(&choices, "note: ", NULL);
-    for (size_t i = 0; i < choices.count; i++) ang_notes_add(&run->report.assumptions, "%s", choices.text[i]);
-    ang_notes_clear(&choices);
-    if (!made) return false;
+    if (!ang_picture_open(options, run->progress, &run->volume, &run->report, &run->picture, &run->summary.load_ms,
+                          err))
+        return false;
     if (!open_renderer(run, err) || !render_all(run, err) || !time_frames(run, err)) return false;
     if (!options->json) return true;
     return ang_render_json_write(options->json, run->volume, &run->report, &run->picture, run->method, &run->summary,

@@ -1,5 +1,6 @@
 #include "app/render_json.h"
 
+#include "core/base/median.h"
 #include "io/json.h"
 #include "io/replace.h"
 #include "io/report.h"
@@ -10,17 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 void ang_render_summary_times(ang_render_summary *summary, double *milliseconds, int count) {
-    qsort(milliseconds, (size_t)count, sizeof *milliseconds, ascending);
+    summary->median_ms = ang_median(milliseconds, (size_t)count);
     summary->timed_frames = count;
     summary->min_ms = milliseconds[0];
     summary->max_ms = milliseconds[count - 1];
-    summary->median_ms = 0.5 * (milliseconds[(count - 1) / 2] + milliseconds[count / 2]);
 }
 
 static cJSON *items_json(const ang_plan_items *items) {
@@ -94,9 +89,7 @@ static void add_objects(cJSON *out, const ang_objects *objects) {
     }
 }
 
-/* What the options made of the picture, so that it can be made again. A preset is called by the name it gives itself:
- * its path may say more. */
-static cJSON *picture_json(const ang_picture *picture) {
+cJSON *ang_picture_json(const ang_picture *picture) {
     const ang_scene *scene = &picture->scene;
     cJSON *out = cJSON_CreateObject();
     cJSON_AddStringToObject(out, "preset", picture->preset->name);
@@ -171,7 +164,7 @@ bool ang_render_json_write(const char *path, const ang_volume *volume, const ang
     cJSON *root = cJSON_CreateObject();
     cJSON_AddStringToObject(root, "version", ANG_VERSION);
     cJSON_AddItemToObject(root, "input", ang_load_report_json(volume, report, keep_phi));
-    cJSON_AddItemToObject(root, "picture", picture_json(picture));
+    cJSON_AddItemToObject(root, "picture", ang_picture_json(picture));
     cJSON_AddItemToObject(root, "plan", plan_json(picture, method, summary));
     cJSON_AddItemToObject(root, "error", error_json(picture, method, summary));
     cJSON_AddItemToObject(root, "time_ms", time_json(summary));

@@ -5,6 +5,8 @@
 #include "app/picture.h"
 #include "core/error/estimate.h"
 
+#include <cjson/cJSON.h>
+
 /* Costs of one call. Times in ms; NaN or 0 where not measured. Borrows the gl strings; owns
  * `plan` and `warnings`. */
 typedef struct ang_render_summary {
@@ -22,6 +24,10 @@ typedef struct ang_render_summary {
 
 /* Sorts `milliseconds` and fills the frame times. */
 void ang_render_summary_times(ang_render_summary *summary, double *milliseconds, int count);
+
+/* What the options made of the picture, so that it can be made again. A preset is called by the name it gives itself:
+ * its path may say more. Free with cJSON_Delete. */
+cJSON *ang_picture_json(const ang_picture *picture);
 
 /* Writes the JSON to a file (atomically) or, for "-", to stdout. Its "picture" is in HU, degrees, pixels and, for the
  * clip box, voxel indices; with several frames its view is that of the first. False with ANG_OUTPUT, ANG_LIMIT. */
