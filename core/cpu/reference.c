@@ -1,10 +1,12 @@
 #include "core/cpu/reference.h"
 
 #include "core/base/memory.h"
+#include "core/base/parallel.h"
 #include "core/cpu/integrate.h"
 #include "core/math/polynomial.h"
 #include "core/scene/objects.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -378,4 +380,44 @@ void ang_reference_pixel(const ang_reference *reference, double x, double y, dou
     double through = limits ? 1 - rgba[3] : 1;
     for (int c = 0; c < 3; c++) rgba[c] = (limits ? rgba[c] : 0) + through * colour[c];
     rgba[3] = 1;
+}
+
+typedef struct fill_job {
+    const ang_reference *reference;
+    ang_image *image;
+    const ang_progress *progress;
+    atomic_size_t rows_done;
+    atomic_uint_fast64_t samples;
+    atomic_bool cancelled;
+} fill_job;
+
+static void fill_rows(void *context, size_t begin, size_t end, int worker) {
+    (void)worker;
+    fill_job *job = context;
+    uint64_t samples = 0;
+    for (size_t y = begin; y < end; y++) {
+        if (atomic_load(&job->cancelled)) return;
+        for (int x = 0; x < job->image->width; x++) {
+            float *out = job->image->rgba + 4 * (y * (size_t)job->image->width + (size_t)x);
+            if (!isnan(out[3])) continue;
+            double rgba[4];
+            ang_reference_pixel(job->reference, x + 0.5, (double)y + 0.5, rgba, &samples);
+            for (int c = 0; c < 4; c++) out[c] = (float)rgba[c];
+        }
+        double done = (double)(atomic_fetch_add(&job->rows_done, 1) + 1) / job->image->height;
+        if (!ang_progress_update(job->progress, "rendering the reference", done)) atomic_store(&job->cancelled, true);
+    }
+    atomic_fetch_add(&job->samples, samples);
+}
+
+bool ang_reference_fill(const ang_reference *reference, ang_image *image, int threads, const ang_progress *progress,
+                        uint64_t *samples, ang_error *err) {
+    fill_job job = {.reference = reference, .image = image, .progress = progress};
+    ang_parallel_for((size_t)image->height, 1, threads, fill_rows, &job);
+    if (samples) *samples += job.samples;
+    return !job.cancelled || ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering the reference");
+}
+
+void ang_reference_blank(ang_image *image) {
+    for (size_t i = 3; i < 4 * (size_t)image->width * (size_t)image->height; i += 4) image->rgba[i] = NAN;
 }
