@@ -118,6 +118,12 @@ bool ang_metrics_compute(const ang_image *a, const ang_image *b, bool quantised,
     return similarity(a, b, quantised, &out->ssim, err);
 }
 
+bool ang_metrics_map(const ang_image *a, const ang_image *b, float *out, ang_error *err) {
+    if (!same_size(a, b, err)) return false;
+    differences(a, b, false, out);
+    return true;
+}
+
 bool ang_heat_image(const float *values, double scale, int width, int height, ang_image *out, ang_error *err) {
     *out = (ang_image){0};
 #ifdef ANG_WITH_OPENCV

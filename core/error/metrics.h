@@ -24,6 +24,10 @@ typedef struct ang_metrics {
  * ANG_USAGE where the sizes differ, ANG_LIMIT where memory is out. Thread safe. */
 bool ang_metrics_compute(const ang_image *a, const ang_image *b, bool quantised, ang_metrics *out, ang_error *err);
 
+/* Each pixel's difference in levels, of the unrounded values, into `out` (width * height). False with ANG_USAGE where
+ * the sizes differ. Thread safe. */
+bool ang_metrics_map(const ang_image *a, const ang_image *b, float *out, ang_error *err);
+
 /* A heat map of width x height values: black at 0, then OpenCV's "inferno" up to yellow at `scale`. False with
  * ANG_LIMIT, and with ANG_USAGE in a build without OpenCV. Free `out` with ang_image_clear. Thread safe. */
 bool ang_heat_image(const float *values, double scale, int width, int height, ang_image *out, ang_error *err);

@@ -140,6 +140,15 @@ bool ang_image_write(const char *path, const ang_image *image, const double back
     return whole;
 }
 
+bool ang_image_png(const ang_image *image, const double background[4], unsigned char **data, size_t *size,
+                   ang_error *err) {
+    ang_bytes bytes = {0};
+    bool whole = encode_bytes(PNG, image, background, &bytes, err);
+    *data = bytes.data;
+    *size = bytes.size;
+    return whole;
+}
+
 bool ang_picture_read(const char *path, ang_image *out, ang_error *err) {
     *out = (ang_image){0};
     format format = format_of(path);

@@ -5,6 +5,8 @@
 #include "core/base/error.h"
 #include "core/scene/image.h"
 
+#include <stddef.h>
+
 /* Writes `image` (premultiplied) over `background` (r, g, b, a in 0..1, not premultiplied). Values are display-referred
  * and written as they are, without a colour transform. By extension, in any case:
  *   .png        8 bit, unassociated alpha, round(255 x) of the clipped value; RGB only where every pixel is opaque
@@ -21,6 +23,11 @@ bool ang_image_write(const char *path, const ang_image *image, const double back
 /* What ang_image_write rounds by at most, in levels of the premultiplied picture: 0.5 for formats of 8 bits, 1 where
  * colour and alpha are both rounded (unassociated alpha over a background that is not opaque), 0 for floats. */
 double ang_image_rounding(const char *path, const double background[4]);
+
+/* The bytes of the PNG file that ang_image_write would write, into *data (free with free()). False with ANG_USAGE in a
+ * build without OpenImageIO, ANG_OUTPUT, ANG_LIMIT. Thread safe. */
+bool ang_image_png(const ang_image *image, const double background[4], unsigned char **data, size_t *size,
+                   ang_error *err);
 
 /* False where ang_image_write would fail as things stand, with ANG_USAGE for the extension of `path` and ANG_OUTPUT for
  * its folder: to be asked before long work. Thread safe. */

@@ -309,6 +309,42 @@ static void sphere_seen_from_inside_and_single_voxels_are_finite(void **state) {
     }
 }
 
+/* A picture in parts is the picture, and what is filled is left as it is. */
+static void only_blank_pixels_are_filled(void **state) {
+    (void)state;
+    ang_volume *volume = make_volume(6, 6, 6, unit, noise_value);
+    ang_transfer *transfer = constant_transfer(0.3, 1, 0.5, 0.25);
+    ang_scene scene = ang_scene_default(volume);
+    scene.transfer = transfer;
+    scene.width = scene.height = 16;
+    ang_error err = {0};
+    ang_reference *reference = ang_reference_create(volume, &scene, &err);
+    ang_image whole, parts;
+    assert_true(reference && ang_image_create(&whole, 16, 16, &err) && ang_image_create(&parts, 16, 16, &err));
+    ang_reference_blank(&whole);
+    assert_true(ang_reference_fill(reference, &whole, 2, NULL, NULL, &err));
+    for (int i = 0; i < 256; i++) {
+        double rgba[4];
+        ang_reference_pixel(reference, i % 16 + 0.5, i / 16 + 0.5, rgba, NULL);
+        for (int c = 0; c < 4; c++) assert_true(whole.rgba[4 * i + c] == (float)rgba[c]);
+    }
+    ang_reference_blank(&parts);
+    for (int i = 0; i < 100; i++)
+        for (int c = 0; c < 4; c++) parts.rgba[4 * i + c] = 7;
+    uint64_t samples = 0;
+    assert_true(ang_reference_fill(reference, &parts, 2, NULL, &samples, &err));
+    assert_true(samples > 0);
+    for (int i = 0; i < 1024; i++) assert_true(parts.rgba[i] == (i < 400 ? 7 : whole.rgba[i]));
+    samples = 0;
+    assert_true(ang_reference_fill(reference, &parts, 2, NULL, &samples, &err));
+    assert_int_equal(samples, 0);
+    ang_image_clear(&whole);
+    ang_image_clear(&parts);
+    ang_reference_free(reference);
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cubic_in_a_cell_is_trilinear_interpolation),
@@ -322,6 +358,7 @@ int main(void) {
         cmocka_unit_test(maximum_inside_a_cell_is_found),
         cmocka_unit_test(padding_stays_out_of_the_mean),
         cmocka_unit_test(sphere_seen_from_inside_and_single_voxels_are_finite),
+        cmocka_unit_test(only_blank_pixels_are_filled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -288,12 +288,43 @@ static void annotations_are_whole_or_not_there(void **state) {
     ang_image_clear(&image);
 }
 
+static void a_png_in_memory_is_that_of_the_file(void **state) {
+    (void)state;
+    ang_image image;
+    ang_error err = {0};
+    assert_true(ang_image_create(&image, W, H, &err));
+    for (int i = 0; i < 4 * W * H; i++) image.rgba[i] = (float)(i % 97) / 96;
+    unsigned char *data = NULL;
+    size_t size = 0;
+#ifdef ANG_WITH_OIIO
+    static unsigned char file_data[1 << 16];
+    char path[600];
+    snprintf(path, sizeof path, "%s/memory.png", folder);
+    assert_true(ang_image_png(&image, black, &data, &size, &err) && ang_image_write(path, &image, black, &err));
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    assert_int_equal(fread(file_data, 1, sizeof file_data, file), size);
+    fclose(file);
+    assert_memory_equal(file_data, data, size);
+#else
+    assert_false(ang_image_png(&image, black, &data, &size, &err));
+    assert_int_equal(err.code, ANG_USAGE);
+#endif
+    free(data);
+    ang_image_clear(&image);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_format_comes_back),     cmocka_unit_test(float_is_not_clipped_and_keeps_rows),
-        cmocka_unit_test(background_shows_through),    cmocka_unit_test(failures_name_the_file_and_leave_nothing),
-        cmocka_unit_test(formats_round_as_they_say),   cmocka_unit_test(annotations_are_whole_or_not_there),
-        cmocka_unit_test(broken_pictures_are_refused), cmocka_unit_test(files_hold_nothing_that_identifies),
+        cmocka_unit_test(every_format_comes_back),
+        cmocka_unit_test(float_is_not_clipped_and_keeps_rows),
+        cmocka_unit_test(background_shows_through),
+        cmocka_unit_test(failures_name_the_file_and_leave_nothing),
+        cmocka_unit_test(annotations_are_whole_or_not_there),
+        cmocka_unit_test(broken_pictures_are_refused),
+        cmocka_unit_test(a_png_in_memory_is_that_of_the_file),
+        cmocka_unit_test(files_hold_nothing_that_identifies),
+        cmocka_unit_test(formats_round_as_they_say),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
