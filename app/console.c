@@ -1,5 +1,6 @@
 /* What all verbs share: progress on stderr, messages, small parsers, the clock, where presets lie. */
 #include "app/verbs.h"
+#include "core/base/clock.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -14,7 +15,8 @@ struct ang_app_progress {
     pthread_mutex_t lock;
     bool quiet, terminal, open_line;
     char what[64];
-    int shown; /* last percentage shown for `what` */
+    int shown;       /* last percentage shown for `what` */
+    double begun_ms; /* when `what` began */
 };
 
 /* Set by the signal handler alone: there is no other way to hear of a signal. */
@@ -26,6 +28,17 @@ static void on_signal(int number) {
     interrupted = 1;
 }
 
+/* ", about 3 min left": what the time so far says, once it says anything. */
+static void remaining_text(double elapsed_ms, double fraction, char text[48]) {
+    text[0] = '\0';
+    if (elapsed_ms < 4000 || fraction < 0.02 || fraction >= 1) return;
+    double seconds = elapsed_ms / 1000 * (1 - fraction) / fraction;
+    if (seconds < 90)
+        snprintf(text, 48, ", about %.0f s left", ceil(seconds));
+    else
+        snprintf(text, 48, ", about %.0f min left", ceil(seconds / 60));
+}
+
 static bool update(void *context, const char *what, double fraction) {
     ang_app_progress *progress = context;
     if (progress->quiet) return !interrupted;
@@ -35,18 +48,21 @@ static bool update(void *context, const char *what, double fraction) {
         progress->open_line = false;
         snprintf(progress->what, sizeof progress->what, "%s", what);
         progress->shown = -1;
+        progress->begun_ms = ang_now_ms();
     }
     int percent = (int)(100 * fmin(fmax(fraction, 0), 1));
     int step = progress->terminal ? 1 : 10;
     if (percent / step > progress->shown / step || progress->shown < 0) {
         bool first = progress->shown < 0;
         progress->shown = percent;
+        char left[48];
+        remaining_text(ang_now_ms() - progress->begun_ms, fraction, left);
         if (progress->terminal) {
-            fprintf(stderr, "\r%-28s [%-40.*s] %3d %%", what, percent * 40 / 100,
-                    "########################################", percent);
+            fprintf(stderr, "\r%-28s [%-40.*s] %3d %%%-22s", what, percent * 40 / 100,
+                    "########################################", percent, left);
             progress->open_line = true;
         } else if (percent >= 10 || first) {
-            fprintf(stderr, "%s: %d %%\n", what, percent / 10 * 10);
+            fprintf(stderr, "%s: %d %%%s\n", what, percent / 10 * 10, left);
         }
     }
     pthread_mutex_unlock(&progress->lock);

@@ -15,6 +15,8 @@ typedef struct verb_entry {
 static const verb_entry verbs[] = {
     {"info", ANG_VERB_INFO, ang_app_info, "info PATH [options]", "what is in a folder or file, and what was assumed"},
     {"render", ANG_VERB_RENDER, ang_app_render, "render PATH -o OUT.png [options]", "a picture of a volume"},
+    {"report", ANG_VERB_REPORT, ang_app_report, "report PATH -o DIR [options]",
+     "error against run time, all methods, as a page to read"},
     {"presets", ANG_VERB_PRESETS, ang_app_presets, "presets list | presets show NAME|FILE", "the presets there are"},
     {"phantom", ANG_VERB_PHANTOM, ang_app_phantom, "phantom -o DIR [options]",
      "a synthetic head CTA as a DICOM series"},

@@ -22,13 +22,13 @@ typedef struct option_spec {
 } option_spec;
 
 #define FIELD(field) offsetof(ang_options, field)
-#define READS        (ANG_VERB_INFO | ANG_VERB_RENDER)
-#define ALL                                                                                                            \
-    (ANG_VERB_INFO | ANG_VERB_RENDER | ANG_VERB_PRESETS | ANG_VERB_PHANTOM | ANG_VERB_CHECK | ANG_VERB_SELFCHECK)
+#define DRAWS        (ANG_VERB_RENDER | ANG_VERB_REPORT)
+#define READS        (ANG_VERB_INFO | DRAWS)
+#define ALL          (READS | ANG_VERB_PRESETS | ANG_VERB_PHANTOM | ANG_VERB_CHECK | ANG_VERB_SELFCHECK)
 #define TEXT_OPTION(name, verbs, field, argument, initial, help)                                                       \
     { name, 0, TEXT, verbs, FIELD(field), argument, 0, 0, initial, NULL, help }
 #define CHOICE_OPTION(name, field, words, initial, help)                                                               \
-    { name, 0, CHOICE, ANG_VERB_RENDER, FIELD(field), words, 0, 0, initial, NULL, help }
+    { name, 0, CHOICE, DRAWS, FIELD(field), words, 0, 0, initial, NULL, help }
 #define REAL_OPTION(name, verbs, field, argument, min, max, initial, unit, help)                                       \
     { name, 0, REAL, verbs, FIELD(field), argument, min, max, initial, unit, help }
 #define INTEGER_OPTION(name, verbs, field, min, max, initial, help)                                                    \
@@ -39,48 +39,49 @@ typedef struct option_spec {
 static const option_spec table[] = {
     {"output", 'o', TEXT, ANG_VERB_RENDER, FIELD(output), "OUT", 0, 0, NULL, NULL,
      "picture to write: .png or .tif (8 bit), .exr (float), .ppm (8 bit) or .pfm (float); numbered with --frames"},
+    {"output", 'o', TEXT, ANG_VERB_REPORT, FIELD(output), "DIR", 0, 0, NULL, NULL,
+     "folder to write report.html, .csv, .json and plots into; made where it does not exist; what was measured there "
+     "before is taken over"},
     {"output", 'o', TEXT, ANG_VERB_PHANTOM, FIELD(output), "DIR", 0, 0, NULL, NULL,
      "folder to write; made where it does not exist"},
     TEXT_OPTION("series", READS, series, "N|UID", NULL,
                 "series to load, as numbered by info, or the end of its UID; default: the largest CT volume"),
-    TEXT_OPTION("preset", ANG_VERB_RENDER, preset, "NAME|FILE", NULL,
+    TEXT_OPTION("preset", DRAWS, preset, "NAME|FILE", NULL,
                 "preset: see 'presets list'; default: one that suits the input"),
-    REAL_OPTION("shift", ANG_VERB_RENDER, shift, "HU", -1e5, 1e5, "0", "HU",
+    REAL_OPTION("shift", DRAWS, shift, "HU", -1e5, 1e5, "0", "HU",
                 "moves the preset's transfer function along the HU axis"),
     CHOICE_OPTION("method", method, "auto|slicing|raycast|envelope|singlepass|reference", "auto", "rendering method"),
     CHOICE_OPTION(
         "mode", mode, "dvr|mip|minip|mean|iso|lookups", NULL,
         "what a ray shows; default: the preset's; lookups: how many samples each pixel of that took, as a heat "
         "map"),
-    REAL_OPTION("iso", ANG_VERB_RENDER, iso, "HU", -1e6, 1e6, NULL, "HU",
-                "iso value for --mode iso; default: the preset's"),
+    REAL_OPTION("iso", DRAWS, iso, "HU", -1e6, 1e6, NULL, "HU", "iso value for --mode iso; default: the preset's"),
     CHOICE_OPTION("shading", shading, "none|phong", NULL, "shading in mode dvr; default: the preset's"),
     REAL_OPTION("step", ANG_VERB_RENDER, step, "VOXELS", 1e-5, 1e5, "0.5", "smallest spacings",
                 "distance of samples along a ray"),
-    TEXT_OPTION("size", ANG_VERB_RENDER, size, "WxH", "512x512", "picture size in pixels"),
+    TEXT_OPTION("size", DRAWS, size, "WxH", "512x512", "picture size in pixels"),
     TEXT_OPTION(
-        "view", ANG_VERB_RENDER, view, "VIEW", "anterior",
+        "view", DRAWS, view, "VIEW", "anterior",
         "anterior, posterior, left, right, superior, inferior (where the camera stands), or AZ,EL[,ROLL] in degrees; "
         "superior and inferior have anterior up, superior with the patient's right on the right: an axial slice as "
         "displayed, mirrored"),
-    REAL_OPTION("zoom", ANG_VERB_RENDER, zoom, "X", 1e-3, 1e4, "1", NULL,
+    REAL_OPTION("zoom", DRAWS, zoom, "X", 1e-3, 1e4, "1", NULL,
                 "magnification; at 1 all of the volume is inside the picture"),
     CHOICE_OPTION("projection", projection, "perspective|parallel", "perspective", "projection"),
-    REAL_OPTION("fov", ANG_VERB_RENDER, fov, "DEG", 0.01, 179, "30", "degrees",
-                "vertical field of view in perspective"),
-    TEXT_OPTION("clip", ANG_VERB_RENDER, clip, "x0,x1,y0,y1,z0,z1", NULL,
+    REAL_OPTION("fov", DRAWS, fov, "DEG", 0.01, 179, "30", "degrees", "vertical field of view in perspective"),
+    TEXT_OPTION("clip", DRAWS, clip, "x0,x1,y0,y1,z0,z1", NULL,
                 "clip box along the index axes, in mm from the first voxel or each with % of the box"),
-    FLAG_OPTION("axes", 0, ANG_VERB_RENDER, axes,
+    FLAG_OPTION("axes", 0, DRAWS, axes,
                 "draw the patient's axes through the middle of the volume, with letters at their ends"),
     TEXT_OPTION(
-        "cut-plane", ANG_VERB_RENDER, cut_plane, "PLANE[:MM|%],...", NULL,
+        "cut-plane", DRAWS, cut_plane, "PLANE[:MM|%],...", NULL,
         "opaque planes of voxels in the picture, shown through the preset's window: axial, coronal, sagittal, in "
         "mm from the first voxel or % of the box (default 50%)"),
-    TEXT_OPTION("measure", ANG_VERB_RENDER, measure, "X,Y,Z,X,Y,Z", NULL,
+    TEXT_OPTION("measure", DRAWS, measure, "X,Y,Z,X,Y,Z", NULL,
                 "draw a measuring mark between two points in LPS mm, with its length; further pairs follow"),
-    TEXT_OPTION("background", ANG_VERB_RENDER, background, "R,G,B[,A]", "0,0,0,1", "background colour, each 0..1"),
-    REAL_OPTION("termination", ANG_VERB_RENDER, termination, "A", 0.01, 1, "0.999", NULL, "stop a ray at this opacity"),
-    FLAG_OPTION("no-termination", 0, ANG_VERB_RENDER, no_termination, "follow every ray to its end"),
+    TEXT_OPTION("background", DRAWS, background, "R,G,B[,A]", "0,0,0,1", "background colour, each 0..1"),
+    REAL_OPTION("termination", DRAWS, termination, "A", 0.01, 1, "0.999", NULL, "stop a ray at this opacity"),
+    FLAG_OPTION("no-termination", 0, DRAWS, no_termination, "follow every ray to its end"),
     CHOICE_OPTION("proxy", proxy, "vertex-program|marching-cubes|marching-tetrahedra|convex-hull", "vertex-program",
                   "how --method slicing cuts its polygons"),
     CHOICE_OPTION(
@@ -89,22 +90,22 @@ static const option_spec table[] = {
         "the visible blocks"),
     CHOICE_OPTION("skipping", skipping, "both|outside|between", "both",
                   "envelope: leave out of rays what lies outside its faces, what lies between visible blocks, or both"),
-    INTEGER_OPTION("quads", ANG_VERB_RENDER, quads, 0, 10000000, "0",
+    INTEGER_OPTION("quads", DRAWS, quads, 0, 10000000, "0",
                    "envelope: most faces it may have, coarser cells where there are more; 0: as many as pay"),
-    FLAG_OPTION("no-skip", 0, ANG_VERB_RENDER, no_skip, "draw what is invisible too"),
-    TEXT_OPTION("bricks", ANG_VERB_RENDER, bricks, "NxNxN", NULL,
+    FLAG_OPTION("no-skip", 0, DRAWS, no_skip, "draw what is invisible too"),
+    TEXT_OPTION("bricks", DRAWS, bricks, "NxNxN", NULL,
                 "slicing: this many bricks along each axis, or as many as cells allow, every visible one drawn; "
                 "default: octree "
                 "boxes where they pay"),
     INTEGER_OPTION(
-        "passes-steps", ANG_VERB_RENDER, pass_steps, 0, 64, "0",
+        "passes-steps", DRAWS, pass_steps, 0, 64, "0",
         "slicing: planes that a fragment composites before it blends, 1, 2 or 4; raycast: samples of a ray in a pass; "
         "0: as many as pay"),
-    FLAG_OPTION("separate-passes", 0, ANG_VERB_RENDER, separate_passes,
+    FLAG_OPTION("separate-passes", 0, DRAWS, separate_passes,
                 "raycast: look for empty space in passes of their own, as in the paper"),
     FLAG_OPTION("show-bricks", 0, ANG_VERB_RENDER, show_bricks, "slicing: draw the edges of the boxes"),
     REAL_OPTION(
-        "gpu-memory", ANG_VERB_RENDER, gpu_memory, "MB", 0.001, 1e9, NULL, "MB",
+        "gpu-memory", DRAWS, gpu_memory, "MB", 0.001, 1e9, NULL, "MB",
         "most memory that the volume's textures take; a larger volume is drawn in bricks by slicing (it stays whole in "
         "main memory)"),
     FLAG_OPTION("count-shown", 0, ANG_VERB_RENDER, count_shown,
@@ -114,7 +115,7 @@ static const option_spec table[] = {
                 "exponential, colour, rounding, termination, skipping, descent, near-plane, directions, border, slabs, "
                 "redraw, gl"),
     FLAG_OPTION("explain", 0, ANG_VERB_RENDER, explain, "say what the picture takes and what is left out, and why"),
-    FLAG_OPTION("manual-filter", 0, ANG_VERB_RENDER, manual_filter,
+    FLAG_OPTION("manual-filter", 0, DRAWS, manual_filter,
                 "interpolate in the shader instead of the texture unit, to verify filtering"),
     INTEGER_OPTION("frames", ANG_VERB_RENDER, frames, 1, 100000, "1", "number of pictures, spread over --orbit"),
     REAL_OPTION("orbit", ANG_VERB_RENDER, orbit, "DEG", -36000, 36000, "0", "degrees",
@@ -130,10 +131,13 @@ static const option_spec table[] = {
     FLAG_OPTION("annotate", 0, ANG_VERB_RENDER, annotate,
                 "draw orientation letters, a millimetre bar, preset, mode, and how wrong the picture may be"),
     FLAG_OPTION("strict", 0, READS, strict, "refuse input (exit code 4) where loading it gives a warning"),
-    FLAG_OPTION("keep-phi", 0, READS, keep_phi, "let what may identify a patient into the output"),
+    FLAG_OPTION("keep-phi", 0, ANG_VERB_INFO | ANG_VERB_RENDER, keep_phi,
+                "let what may identify a patient into the output"),
     TEXT_OPTION("raw-dims", READS, raw_dims, "XxYxZ", NULL, "size of raw input, x fastest"),
     TEXT_OPTION("raw-type", READS, raw_type, "TYPE", NULL, "u8, i8, u16, i16 or f32, little endian"),
     TEXT_OPTION("raw-spacing", READS, raw_spacing, "X,Y,Z", NULL, "voxel spacing of raw input in mm; default 1,1,1"),
+    REAL_OPTION("time-limit", ANG_VERB_REPORT, time_limit, "MINUTES", 0.01, 1e5, "20", "minutes",
+                "most time to take; what does not fit is left out and listed, and made up for by the next run"),
     TEXT_OPTION("json", ANG_VERB_RENDER, json, "FILE|-", NULL, "write what was done, its error and its cost as JSON"),
     TEXT_OPTION("json", ANG_VERB_SELFCHECK, json, "FILE|-", NULL, "write the results as JSON; -: instead of the table"),
     FLAG_OPTION("json", 0, ANG_VERB_INFO | ANG_VERB_CHECK, json_flag, "print JSON to standard output"),
@@ -235,6 +239,35 @@ bool ang_options_parse(ang_verb verb, int argc, char **argv, ang_options *option
     options->arguments = (const char **)argv + optind;
     options->argument_count = argc - optind;
     return true;
+}
+
+static void value_text(const option_spec *spec, const ang_options *options, char *text, size_t size) {
+    const void *field = (const char *)options + spec->offset;
+    switch (spec->type) {
+    case FLAG:
+        snprintf(text, size, "%s", *(const bool *)field ? "yes" : "");
+        break;
+    case INTEGER:
+        snprintf(text, size, "%d", *(const int *)field);
+        break;
+    case REAL:
+        snprintf(text, size, "%.17g", *(const double *)field);
+        break;
+    case TEXT:
+    case CHOICE:
+        snprintf(text, size, "%s", *(const char *const *)field ? *(const char *const *)field : "");
+        break;
+    }
+}
+
+void ang_options_each(ang_verb verb, const ang_options *options,
+                      void (*take)(void *context, const char *name, const char *value), void *context) {
+    for (int i = 0; i < table_length; i++) {
+        if (!(table[i].verbs & verb)) continue;
+        char text[4096];
+        value_text(&table[i], options, text, sizeof text);
+        take(context, table[i].name, text);
+    }
 }
 
 /* Writes words, breaking lines at column 100 and continuing at column `indent`. */

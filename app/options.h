@@ -15,6 +15,7 @@ typedef enum ang_verb {
     ANG_VERB_PHANTOM = 8,
     ANG_VERB_CHECK = 16,
     ANG_VERB_SELFCHECK = 32,
+    ANG_VERB_REPORT = 64,
 } ang_verb;
 
 /* The values, with the table's defaults where not given. Strings are borrowed from argv or from the table. */
@@ -24,8 +25,8 @@ typedef struct ang_options {
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
         *skipping, *cut_plane, *measure, *force;
     const char *cases;
-    double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory,
-        threshold; /* NaN where not given and without default */
+    double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold,
+        time_limit; /* NaN where not given and without default */
     int frames, repeat, threads, seed, pass_steps, quads;
     bool no_termination, no_skip, count_shown, separate_passes, show_bricks, axes, explain, manual_filter, strict,
         annotate, keep_phi, quiet, verbose, help, json_flag;
@@ -36,6 +37,11 @@ typedef struct ang_options {
 /* Reads argv[first...] for one verb. Reorders argv as getopt does. False with ANG_USAGE naming the option. `options->
  * arguments` points into argv. */
 bool ang_options_parse(ang_verb verb, int argc, char **argv, ang_options *options, ang_error *err);
+
+/* Calls `take` with every option of a verb and its value as text, "" where it is not given: all that was asked for, for
+ * those who must know whether it is what was asked for before. */
+void ang_options_each(ang_verb verb, const ang_options *options,
+                      void (*take)(void *context, const char *name, const char *value), void *context);
 
 /* Prints the options of a verb: name, argument, default, range and help. */
 void ang_options_help(ang_verb verb, FILE *out);

@@ -9,6 +9,7 @@
 
 int ang_app_info(const ang_options *options, ang_error *err);
 int ang_app_render(const ang_options *options, ang_error *err);
+int ang_app_report(const ang_options *options, ang_error *err);
 int ang_app_presets(const ang_options *options, ang_error *err);
 int ang_app_phantom(const ang_options *options, ang_error *err);
 int ang_app_check(const ang_options *options, ang_error *err);
