@@ -14,7 +14,8 @@ struct ang_program_entry {
 enum { LINE_LENGTH = 24, LOG_LENGTH = 2048, PART_LINES = 1000 };
 
 void ang_shader_add(ang_shader_source *source, const char *name, const char *text) {
-    if (source->count < ANG_SHADER_PARTS) source->parts[source->count++] = (ang_shader_part){name, text};
+    source->full |= source->count == ANG_SHADER_PARTS;
+    if (!source->full) source->parts[source->count++] = (ang_shader_part){name, text};
 }
 
 /* Names without their ending, separated by blanks. */
@@ -125,6 +126,10 @@ unsigned ang_programs_get(ang_programs *programs, const char *title, const ang_s
     uint64_t hash = hash_source(hash_source(0xcbf29ce484222325u, vertex), fragment);
     for (size_t i = 0; i < programs->count; i++)
         if (programs->entries[i].hash == hash) return programs->entries[i].program;
+    if (vertex->full || fragment->full) {
+        ang_fail(err, ANG_GL, "the shaders of %s have more than %d parts; report this", title, ANG_SHADER_PARTS);
+        return 0;
+    }
     struct ang_program_entry *grown = realloc(programs->entries, (programs->count + 1) * sizeof *grown);
     if (!grown) {
         ang_fail(err, ANG_LIMIT, "out of memory for the programs of %s; close other programs", title);

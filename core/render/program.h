@@ -17,12 +17,13 @@ typedef struct ang_shader_part {
     const char *text;
 } ang_shader_part;
 
-enum { ANG_SHADER_PARTS = 24 };
+enum { ANG_SHADER_PARTS = 48 };
 
 /* One shader: its parts in order, the first with the #version line. */
 typedef struct ang_shader_source {
     ang_shader_part parts[ANG_SHADER_PARTS];
     int count;
+    bool full; /* a part had no room: no program is made of this */
 } ang_shader_source;
 
 /* Appends an embedded file: ANG_SHADER_ADD(&source, dvr) for shaders/dvr.glsl; "shaders.h" must be included. */
