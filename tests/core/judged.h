@@ -108,6 +108,10 @@ static inline bool judge(const ang_method *method, ang_renderer *renderer, ang_r
     return done;
 }
 
+/* What is judged: the largest error, or where there is no estimate of that the RMS. */
+static inline double judged_estimate(const judged *j) { return j->estimate.why ? j->estimate.rms : j->estimate.levels; }
+static inline double judged_truth(const judged *j) { return j->estimate.why ? j->truth.rms : j->truth.max; }
+
 /* Over the rows first, first + stride, ...: the share whose estimate is not below the truth, and quantiles of estimate
  * / truth. */
 typedef struct verdict {
@@ -124,8 +128,9 @@ static inline verdict judge_all(const judged *rows, int count, int first, int st
     double *ratio = calloc((size_t)count + 1, sizeof *ratio);
     verdict v = {0};
     for (int i = first; i < count; i += stride) {
-        v.not_below += rows[i].estimate.levels >= rows[i].truth.max;
-        ratio[v.scenes++] = rows[i].truth.max > 0 ? rows[i].estimate.levels / rows[i].truth.max : INFINITY;
+        double estimate = judged_estimate(&rows[i]), truth = judged_truth(&rows[i]);
+        v.not_below += estimate >= truth;
+        ratio[v.scenes++] = truth > 0 ? estimate / truth : INFINITY;
     }
     qsort(ratio, (size_t)v.scenes, sizeof *ratio, judged_ascending);
     v.not_below /= v.scenes;

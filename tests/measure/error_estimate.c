@@ -90,8 +90,8 @@ static void print_row(const char *volume, const char *transfer, const drawn *d, 
         "%5.0f\n",
         volume, transfer, d->view.azimuth_deg, d->view.elevation_deg, ang_projection_name(d->view.projection),
         d->view.zoom, ang_shading_name(d->scene.shading), judged_methods[d->method]->name, d->options.step_voxels,
-        d->options.termination, e->levels, j->truth.max, e->levels / j->truth.max, e->step, e->termination,
-        e->filtering, e->order, e->pixels, e->ms);
+        d->options.termination, judged_estimate(j), judged_truth(j), judged_estimate(j) / judged_truth(j), e->step,
+        e->termination, e->filtering, e->order, e->pixels, e->ms);
     fflush(stdout);
 }
 
@@ -114,6 +114,8 @@ static void judge_one(bench *on, uint64_t *lot, judged *out) {
     ang_preset *preset = NULL;
     d.scene.transfer = transfer;
     d.scene.mode = on->mode;
+    d.scene.iso_hu =
+        0.4 * ang_volume_hu(on->volume, on->volume->minimum) + 0.6 * ang_volume_hu(on->volume, on->volume->maximum);
     if (!transfer) {
         preset = ang_preset_find(name, (const char *const[]){on->presets, NULL}, &err);
         if (!preset) stop(name, &err);
