@@ -8,6 +8,7 @@
 #include "io/machine.h"
 #include "io/replace.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,6 +63,19 @@ static bool prepare(ang_report *report, ang_error *err) {
                         report->options->method);
     report->cache = ang_report_cache_open(report, err);
     return report->cache != NULL;
+}
+
+/* What was measured beside other work is so for good, until it is measured again. */
+static void note_load(ang_report *report) {
+    const cJSON *before = ang_report_cache_get(report->cache, "load");
+    if (cJSON_IsNumber(before)) report->load = fmax(report->load, before->valuedouble);
+    if (isfinite(report->load)) ang_report_cache_put(report->cache, "load", cJSON_CreateNumber(report->load));
+    if (report->load > 0.5 * report->threads)
+        ang_notes_add(
+            &report->notes,
+            "The machine was busy with other work before anything was measured (load %.1f on %d processor%s): "
+            "times may be too long and scatter.",
+            report->load, report->threads, ang_plural(report->threads));
 }
 
 /* Whatever happens, what was measured is not to be measured again. */
@@ -122,6 +136,7 @@ static bool run_all(ang_report *report, ang_error *err) {
     if (!check_outputs(options, err) || !prepare(report, err) || !measure(report, err) ||
         !ang_report_judge(report, err))
         return false;
+    note_load(report);
     note_limits(report);
     return write_all(report, err);
 }
@@ -135,7 +150,8 @@ int ang_app_report(const ang_options *options, ang_error *err) {
     ang_report report = {.options = options,
                          .progress = ang_app_progress_start(options->quiet),
                          .begun_ms = ang_now_ms(),
-                         .limit_ms = options->time_limit * 60e3};
+                         .limit_ms = options->time_limit * 60e3,
+                         .load = ang_machine_load()};
     bool done = run_all(&report, err);
     ang_app_progress_end(report.progress);
     if (!options->quiet) {

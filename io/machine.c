@@ -3,7 +3,9 @@
 #include "io/checksum.h"
 #include "io/text.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
 
@@ -27,6 +29,11 @@ void ang_machine_processor(char *name, size_t size) {
     read_model(file, name, size);
     fclose(file);
     ang_text_clean(name);
+}
+
+double ang_machine_load(void) {
+    double load;
+    return getloadavg(&load, 1) == 1 ? load : (double)NAN;
 }
 
 uint32_t ang_machine_program_checksum(void) {

@@ -70,7 +70,7 @@ static bool judge_fronts(ang_report *report, ang_error *err) {
             cost[i] = ang_report_is_point(run) ? run->median_ms : (double)NAN;
             error[i] = ang_report_error(run, (ang_report_kind)kind);
         }
-        ang_pareto_front(cost, error, count, front);
+        ang_pareto_front(cost, error, count, ang_report_slack, front);
         for (size_t i = 0; i < count; i++) report->run[i].front[kind] = front[i];
     }
     free(cost);

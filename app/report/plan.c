@@ -9,7 +9,7 @@
 
 const double ang_report_steps[ANG_REPORT_STEP_COUNT] = {2, 1, 0.5, 0.25, 0.125, 1. / 16, 1. / 32};
 const double ang_report_switch_step = 0.5, ang_report_fine_step = 0.125;
-const double ang_report_good_levels = 1, ang_report_quick_levels = 8;
+const double ang_report_good_levels = 1, ang_report_quick_levels = 8, ang_report_slack = 0.01;
 
 const char *ang_report_group_name(ang_report_group group) {
     static const char *const names[] = {"steps", "orders", "switches"};

@@ -28,7 +28,7 @@ static void begin(FILE *out, const char *x, const char *y) {
     fprintf(out,
             "set terminal svg size 620,430 dynamic noenhanced font 'sans-serif,13' linewidth 1.3 background '#ffffff'\n"
             "set encoding utf8\nset border 3 linecolor '#555555'\nset tics nomirror textcolor '#333333'\n"
-            "set grid linecolor '#e2e2e2' linetype 1 linewidth 0.6\nset key outside below horizontal\n"
+            "set grid linecolor '#e2e2e2' linetype 1 linewidth 0.6\nset key top right Left reverse samplen 2\n"
             "set logscale xy\nset format y '%%g'\nset format x '%%g'\nset xlabel '%s'\nset ylabel '%s'\n",
             x, y);
 }
@@ -122,10 +122,13 @@ static bool put_error(FILE *out, const ang_report *report, int kind) {
     begin(out, "median time of a picture (ms)", labels[kind]);
     int on_front = put_points(out, report, NULL, kind, front_only, "front", -1);
     if (!put_methods(out, report, kind, error_over_time, rows)) return false;
-    fputs("set label 'rounding to 8 bits' at graph 0.99, first 0.5 right offset 0,0.5 textcolor '#777777'\nplot ", out);
+    fputs("set yrange [*<0.3:*]\nset arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead dashtype 2 linecolor "
+          "'#999999'\nset label 'rounding to 8 bits' at graph 0.99, first 0.5 right offset 0,0.5 textcolor '#777777'\n"
+          "plot ",
+          out);
     if (on_front)
         fputs("$front using 1:2 smooth unique with lines linewidth 9 linecolor '#dddddd' title 'Pareto front', ", out);
-    fputs("0.5 with lines dashtype 2 linecolor '#999999' notitle", out);
+    fputs("NaN notitle", out);
     plot_methods(out, report, rows, on_front > 0);
     return true;
 }
@@ -145,6 +148,7 @@ static bool put_orders(FILE *out, const ang_report *report) {
     double highest = 0;
     begin(out, "step (voxels)", "RMS error on the subset of pixels (levels of 255)");
     put_steps_axis(out);
+    fputs("set key bottom right\n", out);
     for (size_t m = 0; m < method_count(report); m++) {
         fprintf(out, "$m%zu << END\n", m);
         for (int i = 0; i < ANG_REPORT_STEP_COUNT; i++) {

@@ -90,6 +90,7 @@ typedef struct ang_report {
     ang_report_run *run;
     size_t run_count;
     double begun_ms, limit_ms;
+    double load; /* processes that wanted a processor before anything was measured; NaN where the system does not say */
     ang_notes notes; /* what the reader must know */
 
     /* judge.c */
@@ -106,6 +107,8 @@ enum { ANG_REPORT_STEP_COUNT = 7 };
 extern const double ang_report_switch_step, ang_report_fine_step;
 /* What 99.9 % of the pixels of a recommended setting keep within: what an 8-bit display can show. */
 extern const double ang_report_good_levels, ang_report_quick_levels;
+/* Errors that differ by less than this share are as good as each other on a front. */
+extern const double ang_report_slack;
 
 /* plan.c: lists the runs. False with ANG_LIMIT. */
 bool ang_report_plan(ang_report *report, ang_error *err);

@@ -111,7 +111,7 @@ void ang_report_put_settings_table(FILE *out, const ang_report *report) {
 
 static void put_switch(FILE *out, const ang_report_run *run, const ang_report_run *base) {
     fprintf(out, "<tr class=\"%s\"><th>%s</th><td class=\"words\">", run == base ? "first" : "", run->method->name);
-    ang_report_put_text(out, run == base ? "as above" : run->switched);
+    ang_report_put_text(out, run == base ? "nothing" : run->switched);
     fputs("</td>", out);
     put_ms(out, run);
     double ratio = base ? run->median_ms / base->median_ms : (double)NAN;

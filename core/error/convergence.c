@@ -84,11 +84,11 @@ ang_expected_order ang_order_expected(const ang_scene *scene, double low, double
     return (ang_expected_order){2, 2, "the transfer function is smooth over the values there are"};
 }
 
-void ang_pareto_front(const double *cost, const double *error, size_t count, bool *front) {
+void ang_pareto_front(const double *cost, const double *error, size_t count, double slack, bool *front) {
     for (size_t i = 0; i < count; i++) {
         front[i] = isfinite(cost[i]) && isfinite(error[i]);
         for (size_t j = 0; j < count && front[i]; j++) {
-            bool no_worse = cost[j] <= cost[i] && error[j] <= error[i];
+            bool no_worse = cost[j] <= cost[i] && error[j] <= (1 + slack) * error[i];
             if (no_worse && (cost[j] < cost[i] || error[j] < error[i])) front[i] = false;
         }
     }

@@ -32,7 +32,8 @@ typedef struct ang_expected_order {
 ang_expected_order ang_order_expected(const ang_scene *scene, double low, double high);
 
 /* Sets front[i] where no other setting is both as cheap and as exact as setting i and better in one of the two (Pareto,
- * 1906). Settings whose cost or error is not finite are never on the front; equals are on it together. */
-void ang_pareto_front(const double *cost, const double *error, size_t count, bool *front);
+ * 1906). An error is as good as another where it is at most `slack` (a share) greater: chance decides between such.
+ * Settings whose cost or error is not finite are never on the front; equals are on it together. */
+void ang_pareto_front(const double *cost, const double *error, size_t count, double slack, bool *front);
 
 #endif

@@ -177,7 +177,7 @@ static void errors_fall_with_the_step(void **state) {
     cJSON_Delete(json);
 }
 
-/* By brute force over the points that the report itself lists. */
+/* By brute force over the points that the report itself lists; errors within 1 % are equal. */
 static void the_front_holds(void **state) {
     (void)state;
     cJSON *json = parse_report(DIR "/report.json");
@@ -194,7 +194,8 @@ static void the_front_holds(void **state) {
             if (strcmp(text_of(b, "group"), "steps") != 0 || again) continue;
             double other_time = number(cJSON_GetObjectItemCaseSensitive(b, "time_ms"), "median");
             double other_rms = number(cJSON_GetObjectItemCaseSensitive(b, "error"), "rms");
-            beaten = beaten || (other_time <= time && other_rms <= rms && (other_time < time || other_rms < rms));
+            beaten =
+                beaten || (other_time < time && other_rms <= 1.01 * rms) || (other_time <= time && other_rms < rms);
         }
         const cJSON *front = cJSON_GetObjectItemCaseSensitive(a, "front");
         bool said = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(front, "rms"));

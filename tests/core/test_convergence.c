@@ -98,9 +98,20 @@ static void the_front_is_what_nothing_beats(void **state) {
     /* 3 is beaten by 1, 4 by 2; 0 and 6 are equal; what has no cost or error does not count. */
     static const bool wanted[] = {true, true, true, false, false, true, true, false, false};
     bool front[9];
-    ang_pareto_front(cost, error, 9, front);
+    ang_pareto_front(cost, error, 9, 0, front);
     for (int i = 0; i < 9; i++)
         if (front[i] != wanted[i]) fail_msg("setting %d is%s on the front", i, front[i] ? "" : " not");
+}
+
+/* Half a percent more exact for twice the time is nothing within 1 %; two percent are something. */
+static void hardly_more_exact_is_not_better(void **state) {
+    (void)state;
+    double cost[] = {1, 2, 4, 4}, error[] = {1, 0.995, 0.98, 0.979};
+    bool front[4];
+    ang_pareto_front(cost, error, 4, 0.01, front);
+    assert_true(front[0] && !front[1] && !front[2] && front[3]);
+    ang_pareto_front(cost, error, 4, 0, front);
+    assert_true(front[0] && front[1] && !front[2] && front[3]);
 }
 
 /* On a quarter circle about (1, 1) every point is on the front; points moved away from the axes by a factor are not. */
@@ -116,7 +127,7 @@ static void a_convex_front_is_whole(void **state) {
         cost[points + i] = 1.01 * cost[i];
         error[points + i] = 1.01 * error[i];
     }
-    ang_pareto_front(cost, error, 2 * points, front);
+    ang_pareto_front(cost, error, 2 * points, 0, front);
     for (int i = 0; i < points; i++) assert_true(front[i] && !front[points + i]);
 }
 
@@ -128,6 +139,7 @@ int main(void) {
         cmocka_unit_test(too_little_gives_no_order),
         cmocka_unit_test(the_transfer_function_decides_the_order),
         cmocka_unit_test(the_front_is_what_nothing_beats),
+        cmocka_unit_test(hardly_more_exact_is_not_better),
         cmocka_unit_test(a_convex_front_is_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
