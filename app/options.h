@@ -21,7 +21,7 @@ typedef enum ang_verb {
 /* The values, with the table's defaults where not given. Strings are borrowed from argv or from the table. */
 typedef struct ang_options {
     const char *output;
-    const char *series, *preset, *method, *mode, *shading, *size, *view, *projection, *clip, *background;
+    const char *series, *preset, *method, *mode, *shading, *size, *view, *pan, *projection, *clip, *background;
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
         *skipping, *cut_plane, *measure, *force;
     const char *cases;

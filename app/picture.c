@@ -127,6 +127,8 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
 
     picture->view = ang_view_default;
     if (!ang_view_parse(options->view, &picture->view, err)) return false;
+    int count;
+    if (!ang_app_parse_numbers("pan", options->pan, 2, 2, picture->view.pan_mm, &count, err)) return false;
     picture->view.zoom = options->zoom;
     picture->view.projection = (ang_projection)ang_projection_from_name(options->projection);
     picture->view.fov_deg = options->fov;

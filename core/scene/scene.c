@@ -79,23 +79,55 @@ static void cosine_sine(double degrees, double *cosine, double *sine) {
     *sine = sin(radians);
 }
 
-ang_camera ang_camera_for(const ang_volume *volume, const ang_view *view) {
+/* The camera's axes; `stand` leads from the volume's centre to it. */
+typedef struct axes {
+    ang_vec3 stand, right, up;
+} axes;
+
+static axes axes_of(double azimuth_deg, double elevation_deg, double roll_deg) {
     double ca, sa, ce, se, cr, sr;
-    cosine_sine(view->azimuth_deg, &ca, &sa);
-    cosine_sine(view->elevation_deg, &ce, &se);
-    cosine_sine(view->roll_deg, &cr, &sr);
+    cosine_sine(azimuth_deg, &ca, &sa);
+    cosine_sine(elevation_deg, &ce, &se);
+    cosine_sine(roll_deg, &cr, &sr);
     /* In LPS the patient's left is +x and anterior is -y. */
     ang_vec3 stand = {sa * ce, -ca * ce, se};
     /* The derivative of `stand` by elevation: superior for level views, anterior seen from below. */
     ang_vec3 lifted = {-sa * se, ca * se, ce};
-    ang_vec3 forward = ang_vec3_scale(stand, -1);
     /* Straight from above the derivative points to the patient's back; there anterior is up by convention. */
-    ang_vec3 up = view->elevation_deg == 90 ? ang_vec3_scale(lifted, -1) : lifted;
-    ang_vec3 right = ang_vec3_cross(forward, up);
+    ang_vec3 up = elevation_deg == 90 ? ang_vec3_scale(lifted, -1) : lifted;
+    ang_vec3 right = ang_vec3_cross(ang_vec3_scale(stand, -1), up);
+    return (axes){stand, ang_vec3_add(ang_vec3_scale(right, cr), ang_vec3_scale(up, -sr)),
+                  ang_vec3_add(ang_vec3_scale(up, cr), ang_vec3_scale(right, sr))};
+}
+
+void ang_view_turn(ang_view *view, double right_deg, double down_deg) {
+    axes a = axes_of(view->azimuth_deg, view->elevation_deg, view->roll_deg);
+    /* The camera goes the other way than what it looks at: about the picture's axes, by the angle of both together. */
+    double angle = hypot(right_deg, down_deg);
+    if (!(angle > 0)) return;
+    ang_vec3 axis = ang_vec3_add(ang_vec3_scale(a.up, -right_deg / angle), ang_vec3_scale(a.right, -down_deg / angle));
+    double c, s;
+    cosine_sine(angle, &c, &s);
+    ang_vec3 *turned[] = {&a.stand, &a.right, &a.up};
+    for (int i = 0; i < 3; i++) {
+        ang_vec3 v = *turned[i], across = ang_vec3_cross(axis, v);
+        ang_vec3 along = ang_vec3_scale(axis, ang_vec3_dot(axis, v) * (1 - c));
+        *turned[i] = ang_vec3_add(along, ang_vec3_add(ang_vec3_scale(v, c), ang_vec3_scale(across, s)));
+    }
+    double level = hypot(a.stand.x, a.stand.y);
+    view->azimuth_deg = level > 0 ? atan2(a.stand.x, -a.stand.y) * (180 / M_PI) : 0;
+    view->elevation_deg = atan2(a.stand.z, level) * (180 / M_PI);
+    /* Roll is what is left between the axes without it and these. */
+    axes level_axes = axes_of(view->azimuth_deg, view->elevation_deg, 0);
+    view->roll_deg = atan2(ang_vec3_dot(a.up, level_axes.right), ang_vec3_dot(a.up, level_axes.up)) * (180 / M_PI);
+}
+
+ang_camera ang_camera_for(const ang_volume *volume, const ang_view *view) {
+    axes a = axes_of(view->azimuth_deg, view->elevation_deg, view->roll_deg);
     double radius = ang_volume_half_diagonal(volume);
-    ang_camera camera = {.forward = forward,
-                         .right = ang_vec3_add(ang_vec3_scale(right, cr), ang_vec3_scale(up, -sr)),
-                         .up = ang_vec3_add(ang_vec3_scale(up, cr), ang_vec3_scale(right, sr)),
+    ang_camera camera = {.forward = ang_vec3_scale(a.stand, -1),
+                         .right = a.right,
+                         .up = a.up,
                          .projection = view->projection,
                          .fov_deg = view->fov_deg,
                          .half_height = radius / view->zoom,
@@ -104,7 +136,9 @@ ang_camera ang_camera_for(const ang_volume *volume, const ang_view *view) {
     /* A parallel camera stands clear of the volume whatever the zoom; the distance does not show in its picture. */
     if (view->projection == ANG_PARALLEL && distance < 2 * radius) distance = 2 * radius;
     camera.focus_mm = distance;
-    camera.eye = ang_vec3_along(ang_volume_centre(volume), stand, distance);
+    camera.eye = ang_vec3_along(ang_volume_centre(volume), a.stand, distance);
+    camera.eye = ang_vec3_along(camera.eye, a.right, view->pan_mm[0]);
+    camera.eye = ang_vec3_along(camera.eye, a.up, view->pan_mm[1]);
     return camera;
 }
 

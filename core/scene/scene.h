@@ -47,13 +47,19 @@ typedef struct ang_view {
     double roll_deg;      /* turns the camera clockwise about the line of sight, the picture counter-clockwise */
     double zoom;          /* > 0; default 1 */
     ang_projection projection;
-    double fov_deg; /* default 30 */
+    double fov_deg;   /* default 30 */
+    double pan_mm[2]; /* moves the camera to the right and up, and so the picture the other way; default 0, 0 */
 } ang_view;
 extern const ang_view ang_view_default;
 /* "anterior", "left", ... or "AZ,EL[,ROLL]" in degrees into azimuth, elevation and roll. False with ANG_USAGE. */
 bool ang_view_parse(const char *text, ang_view *view, ang_error *err);
 /* The camera of DESIGN.md for this view of this volume. */
 ang_camera ang_camera_for(const ang_volume *volume, const ang_view *view);
+
+/* Turns the camera about the volume as a trackball under the hand would: by `right_deg` about the picture's vertical
+ * (what is in front moves to the right) and by `down_deg` about its horizontal (what is in front moves down). Angles
+ * come out in (-180, 180], elevation in [-90, 90]. Pure. */
+void ang_view_turn(ang_view *view, double right_deg, double down_deg);
 
 typedef struct ang_objects ang_objects; /* core/scene/objects.h */
 

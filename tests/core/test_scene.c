@@ -65,6 +65,59 @@ static void standard_camera_is_that_of_the_design(void **state) {
     ang_volume_free(volume);
 }
 
+/* What the viewer sees first of a unit ball, and the top of the picture, after turns: against rotations of the patient
+ * in the camera's axes. */
+static void turning_is_a_trackball(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    ang_view view = ang_view_default;
+    ang_view_turn(&view, 90, 0);
+    ang_camera camera = ang_camera_for(volume, &view);
+    check_direction(camera.forward, 1, 0, 0); /* the face has moved to the right: the patient's right is in front */
+    check_direction(camera.up, 0, 0, 1);
+    view = ang_view_default;
+    ang_view_turn(&view, 0, 90);
+    camera = ang_camera_for(volume, &view);
+    check_direction(camera.forward, 0, 0, -1); /* the face has moved down: the top of the head is in front */
+    check_direction(camera.up, 0, 1, 0);
+    check_direction(camera.right, 1, 0, 0);
+
+    uint64_t seed = 5;
+    view = ang_view_default;
+    for (int i = 0; i < 200; i++) {
+        double right = 60 * (random_unit(&seed) - 0.5), down = 60 * (random_unit(&seed) - 0.5);
+        if (i % 20 == 0) ang_view_parse(i % 40 ? "superior" : "30,-90,10", &view, NULL);
+        ang_camera before = ang_camera_for(volume, &view);
+        ang_vec3 nearest = ang_vec3_scale(before.forward, -1);
+        ang_view_turn(&view, right, down);
+        ang_camera after = ang_camera_for(volume, &view);
+        double angle = hypot(right, down) * M_PI / 180, far = sin(angle) / hypot(right, down);
+        assert_close(ang_vec3_dot(nearest, after.right), far * right, 1e-9);
+        assert_close(ang_vec3_dot(nearest, after.up), -far * down, 1e-9);
+        assert_close(ang_vec3_dot(nearest, after.forward), -cos(angle), 1e-9);
+        assert_true(fabs(view.elevation_deg) <= 90);
+        ang_view back = view;
+        ang_view_turn(&back, -right, -down);
+        ang_camera again = ang_camera_for(volume, &back);
+        check_direction(again.forward, before.forward.x, before.forward.y, before.forward.z);
+        check_direction(again.up, before.up.x, before.up.y, before.up.z);
+    }
+    ang_volume_free(volume);
+}
+
+static void panning_moves_the_camera_in_its_plane(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    ang_view view = ang_view_default;
+    assert_true(ang_view_parse("90,0", &view, NULL)); /* from the left: posterior is to the right */
+    ang_vec3 before = ang_camera_for(volume, &view).eye;
+    view.pan_mm[0] = 12;
+    view.pan_mm[1] = -5;
+    ang_vec3 moved = ang_vec3_sub(ang_camera_for(volume, &view).eye, before);
+    check_direction(moved, 0, 12, -5);
+    ang_volume_free(volume);
+}
+
 static void bad_views_are_refused(void **state) {
     (void)state;
     static const char *const bad[] = {"front", "", "10", "10,", "10,95", "1,2,3,4", "1,2,x", "nan,0"};
@@ -253,6 +306,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(named_views_stand_where_they_say),
         cmocka_unit_test(standard_camera_is_that_of_the_design),
+        cmocka_unit_test(turning_is_a_trackball),
+        cmocka_unit_test(panning_moves_the_camera_in_its_plane),
         cmocka_unit_test(bad_views_are_refused),
         cmocka_unit_test(scenes_that_cannot_be_drawn_are_refused),
         cmocka_unit_test(a_subset_has_the_rays_of_the_picture),
