@@ -119,6 +119,20 @@ ang_gl *ang_gl_create(ang_backend backend, ang_error *err) {
     return NULL;
 }
 
+static void leave_to_owner(ang_gl *gl) { (void)gl; }
+
+ang_gl *ang_gl_adopt(ang_gl_lookup lookup, const char *words, ang_error *err) {
+    ang_gl *gl = ang_alloc(1, sizeof *gl, "the GL context", err);
+    if (!gl) return NULL;
+    ang_gl_attempts attempts = {""};
+    gl->words = words;
+    gl->close = leave_to_owner;
+    if (ang_gl_load(gl, lookup, words, &attempts)) return gl;
+    free(gl);
+    ang_fail(err, ANG_GL, "no usable OpenGL for a window (%s)", attempts.text);
+    return NULL;
+}
+
 void ang_gl_destroy(ang_gl *gl) {
     if (!gl) return;
     glDebugMessageCallback(NULL, NULL);

@@ -6,10 +6,6 @@
 
 #include <stddef.h>
 
-/* Where functions of the current context are found. */
-typedef void (*ang_gl_function)(void);
-typedef ang_gl_function (*ang_gl_lookup)(const char *name);
-
 struct ang_gl {
     const char *words;       /* the backend in words, static */
     void *state;             /* of the backend */
@@ -33,8 +29,6 @@ bool ang_gl_load(ang_gl *gl, ang_gl_lookup lookup, const char *who, ang_gl_attem
 /* Stores the address of a library's function through `function`, a pointer to a function pointer; false where the
  * library has none of that name. */
 bool ang_gl_find(void *library, const char *name, void *function);
-/* Whether GL_RENDERER names a rasteriser on the CPU. */
-bool ang_gl_is_software(const ang_gl *gl);
 
 typedef enum ang_egl_kind { ANG_EGL_GPU, ANG_EGL_SOFTWARE } ang_egl_kind;
 
