@@ -1,7 +1,7 @@
 # Two commands do everything: `make demo` and `make test`. The build itself is CMake's: see CMakePresets.json.
 PACKAGES := build-essential cmake ninja-build pkg-config python3 python3-glad zlib1g-dev libcjson-dev libcmocka-dev \
 	libgdcm-dev libnifti-dev libopenimageio-dev libopencv-dev libosmesa6-dev libegl-dev libegl1 libgl1-mesa-dri \
-	fonts-dejavu-core gnuplot-nox dicom3tools dcm2niix clang-format
+	libglfw3-dev libimgui-dev xvfb xdotool fonts-dejavu-core gnuplot-nox dicom3tools dcm2niix clang-format
 DEMO := demo
 
 .PHONY: all packages build demo test sanitize lint format clean
@@ -28,7 +28,7 @@ sanitize: packages
 	@ctest --test-dir build-sanitize --output-on-failure --no-tests=error
 
 lint: build
-	@git ls-files 'app/*.c' 'core/*.c' 'io/*.c' 'core/*.cpp' 'io/*.cpp' | xargs clang-tidy -p build --quiet
+	@git ls-files 'app/*.c' 'core/*.c' 'io/*.c' 'ui/*.c' 'core/*.cpp' 'io/*.cpp' 'ui/*.cpp' | xargs clang-tidy -p build --quiet
 
 format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct verb_entry {
     const char *name;
@@ -13,6 +14,7 @@ typedef struct verb_entry {
 } verb_entry;
 
 static const verb_entry verbs[] = {
+    {"view", ANG_VERB_VIEW, ang_app_view, "[view] [PATH] [options]", "a window with slices and volume rendering"},
     {"info", ANG_VERB_INFO, ang_app_info, "info PATH [options]", "what is in a folder or file, and what was assumed"},
     {"render", ANG_VERB_RENDER, ang_app_render, "render PATH -o OUT.png [options]", "a picture of a volume"},
     {"report", ANG_VERB_REPORT, ang_app_report, "report PATH -o DIR [options]",
@@ -43,6 +45,23 @@ static int finish(int code) {
     return code;
 }
 
+/* `argv[0]` is the verb or, where none is given, the program. */
+static int run_verb(const verb_entry *verb, int argc, char **argv) {
+    ang_options options;
+    ang_error err = {0};
+    int code = ANG_USAGE;
+    if (ang_options_parse(verb->verb, argc, argv, &options, &err)) {
+        if (options.help) {
+            printf("angioscope %s\n%s\n\n", verb->usage, verb->summary);
+            ang_options_help(verb->verb, stdout);
+            return finish(ANG_OK);
+        }
+        code = verb->run(&options, &err);
+    }
+    if (code != ANG_OK && err.message[0]) fprintf(stderr, "angioscope: %s\n", err.message);
+    return finish(code);
+}
+
 int main(int argc, char **argv) {
     /* A closed pipe is an output that cannot be written, not a reason to die. */
     signal(SIGPIPE, SIG_IGN);
@@ -58,22 +77,10 @@ int main(int argc, char **argv) {
         puts("angioscope " ANG_VERSION);
         return finish(ANG_OK);
     }
-    for (int i = 0; i < verb_count; i++) {
-        if (strcmp(argv[1], verbs[i].name) != 0) continue;
-        ang_options options;
-        ang_error err = {0};
-        int code = ANG_USAGE;
-        if (ang_options_parse(verbs[i].verb, argc - 1, argv + 1, &options, &err)) {
-            if (options.help) {
-                printf("angioscope %s\n%s\n\n", verbs[i].usage, verbs[i].summary);
-                ang_options_help(verbs[i].verb, stdout);
-                return finish(ANG_OK);
-            }
-            code = verbs[i].run(&options, &err);
-        }
-        if (code != ANG_OK && err.message[0]) fprintf(stderr, "angioscope: %s\n", err.message);
-        return finish(code);
-    }
+    for (int i = 0; i < verb_count; i++)
+        if (strcmp(argv[1], verbs[i].name) == 0) return run_verb(&verbs[i], argc - 1, argv + 1);
+    /* What is there to be opened needs no verb. */
+    if (access(argv[1], F_OK) == 0) return run_verb(&verbs[0], argc, argv);
     fprintf(stderr, "angioscope: there is no verb '%s'; 'angioscope --help' lists them\n", argv[1]);
     return ANG_USAGE;
 }

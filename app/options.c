@@ -23,7 +23,7 @@ typedef struct option_spec {
 
 #define FIELD(field) offsetof(ang_options, field)
 #define DRAWS        (ANG_VERB_RENDER | ANG_VERB_REPORT)
-#define READS        (ANG_VERB_INFO | DRAWS)
+#define READS        (ANG_VERB_INFO | DRAWS | ANG_VERB_VIEW)
 #define ALL          (READS | ANG_VERB_PRESETS | ANG_VERB_PHANTOM | ANG_VERB_CHECK | ANG_VERB_SELFCHECK)
 #define TEXT_OPTION(name, verbs, field, argument, initial, help)                                                       \
     { name, 0, TEXT, verbs, FIELD(field), argument, 0, 0, initial, NULL, help }
@@ -46,7 +46,7 @@ static const option_spec table[] = {
      "folder to write; made where it does not exist"},
     TEXT_OPTION("series", READS, series, "N|UID", NULL,
                 "series to load, as numbered by info, or the end of its UID; default: the largest CT volume"),
-    TEXT_OPTION("preset", DRAWS, preset, "NAME|FILE", NULL,
+    TEXT_OPTION("preset", DRAWS | ANG_VERB_VIEW, preset, "NAME|FILE", NULL,
                 "preset: see 'presets list'; default: one that suits the input"),
     REAL_OPTION("shift", DRAWS, shift, "HU", -1e5, 1e5, "0", "HU",
                 "moves the preset's transfer function along the HU axis"),
@@ -60,6 +60,10 @@ static const option_spec table[] = {
     REAL_OPTION("step", ANG_VERB_RENDER, step, "VOXELS", 1e-5, 1e5, "0.5", "smallest spacings",
                 "distance of samples along a ray"),
     TEXT_OPTION("size", DRAWS, size, "WxH", "512x512", "picture size in pixels"),
+    TEXT_OPTION("size", ANG_VERB_VIEW, size, "WxH", NULL, "window size in pixels; default: as suits the screen"),
+    TEXT_OPTION("pictures", ANG_VERB_VIEW, pictures, "DIR", ".", "folder that saved pictures go to"),
+    TEXT_OPTION("write-state", ANG_VERB_VIEW, write_state, "FILE", NULL,
+                "write what is shown as JSON to this file whenever it has changed"),
     TEXT_OPTION(
         "view", DRAWS, view, "VIEW", "anterior",
         "anterior, posterior, left, right, superior, inferior (where the camera stands), or AZ,EL[,ROLL] in degrees; "

@@ -16,6 +16,7 @@ typedef enum ang_verb {
     ANG_VERB_CHECK = 16,
     ANG_VERB_SELFCHECK = 32,
     ANG_VERB_REPORT = 64,
+    ANG_VERB_VIEW = 128,
 } ang_verb;
 
 /* The values, with the table's defaults where not given. Strings are borrowed from argv or from the table. */
@@ -23,7 +24,7 @@ typedef struct ang_options {
     const char *output;
     const char *series, *preset, *method, *mode, *shading, *size, *view, *pan, *projection, *clip, *background;
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
-        *skipping, *cut_plane, *measure, *force;
+        *skipping, *cut_plane, *measure, *force, *write_state, *pictures;
     const char *cases;
     double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold,
         time_limit; /* NaN where not given and without default */

@@ -45,8 +45,8 @@ static ang_preset *preset_from_histogram(const ang_volume *volume, int threads, 
     return NULL;
 }
 
-static ang_preset *choose_preset(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
-                                 ang_notes *assumptions, ang_error *err) {
+ang_preset *ang_picture_choose_preset(const ang_options *options, const ang_volume *volume,
+                                      const ang_load_report *report, ang_notes *assumptions, ang_error *err) {
     if (!ang_load_report_hounsfield(report)) {
         ang_notes_add(assumptions, "no --preset given: opacity, colour and window come from the histogram");
         return preset_from_histogram(volume, options->threads, err);
@@ -101,7 +101,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     scene->width = size[0];
     scene->height = size[1];
 
-    if (!picture->preset) picture->preset = choose_preset(options, volume, report, assumptions, err);
+    if (!picture->preset) picture->preset = ang_picture_choose_preset(options, volume, report, assumptions, err);
     if (!picture->preset) return false;
     const ang_preset *preset = picture->preset;
     scene->transfer = preset->transfer;

@@ -35,6 +35,9 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
  * as these and ang_load; what has been made by then is the caller's to free. */
 bool ang_picture_open(const ang_options *options, const ang_app_progress *progress, ang_volume **volume,
                       ang_load_report *report, ang_picture *picture, double *milliseconds, ang_error *err);
+/* The preset where none is named: one that suits the values, said in `assumptions`. Free with ang_preset_free. */
+ang_preset *ang_picture_choose_preset(const ang_options *options, const ang_volume *volume,
+                                      const ang_load_report *report, ang_notes *assumptions, ang_error *err);
 void ang_picture_clear(ang_picture *picture);
 
 #endif

@@ -12,6 +12,7 @@ int ang_app_render(const ang_options *options, ang_error *err);
 int ang_app_report(const ang_options *options, ang_error *err);
 int ang_app_presets(const ang_options *options, ang_error *err);
 int ang_app_phantom(const ang_options *options, ang_error *err);
+int ang_app_view(const ang_options *options, ang_error *err);
 int ang_app_check(const ang_options *options, ang_error *err);
 int ang_app_selfcheck(const ang_options *options, ang_error *err);
 

@@ -13,15 +13,17 @@ found=$(grep -rnE '#include "(io|ui|app)/' core || true)
 [ -z "$found" ] || complain "core includes what it must not" "$found"
 found=$(grep -rnE '#include "(ui|app)/' io || true)
 [ -z "$found" ] || complain "io includes what it must not" "$found"
-found=$(grep -rlE 'glad/gl\.h|\bgl[A-Z][A-Za-z]+\(' core io app --include=*.c --include=*.h | grep -v '^core/render/' || true)
+found=$(grep -rnE '#include "(io|app)/' ui || true)
+[ -z "$found" ] || complain "ui includes what it must not" "$found"
+found=$(grep -rlE 'glad/gl\.h|\bgl[A-Z][A-Za-z]+\(' core io ui app --include=*.c --include=*.h | grep -v '^core/render/' || true)
 [ -z "$found" ] || complain "OpenGL outside core/render" "$found"
-found=$(grep -rnE '\b(printf|puts|putchar|perror|exit|abort)\(|fputs\(.*std|fprintf\(std' core io --include=*.c --include=*.cpp || true)
-[ -z "$found" ] || complain "core and io neither print nor exit" "$found"
-found=$(find app core io shaders tests -type f \( -name '*.c' -o -name '*.h' -o -name '*.cpp' -o -name '*.glsl' \) -exec wc -l {} + |
+found=$(grep -rnE '\b(printf|puts|putchar|perror|exit|abort)\(|fputs\(.*std|fprintf\(std' core io ui --include=*.c --include=*.cpp || true)
+[ -z "$found" ] || complain "core, io and ui neither print nor exit" "$found"
+found=$(find app core io ui shaders tests -type f \( -name '*.c' -o -name '*.h' -o -name '*.cpp' -o -name '*.glsl' \) -exec wc -l {} + |
     awk '$2 != "total" && $1 > 600 { print $2 ": " $1 " lines" }')
 [ -z "$found" ] || complain "files over 600 lines" "$found"
 if command -v clang-format >/dev/null 2>&1; then
-    found=$(find app core io tests -name '*.c' -o -name '*.h' -o -name '*.cpp' | xargs clang-format --dry-run 2>&1 |
+    found=$(find app core io ui tests -name '*.c' -o -name '*.h' -o -name '*.cpp' | xargs clang-format --dry-run 2>&1 |
         grep -E 'warning:' | cut -d: -f1 | sort -u || true)
     [ -z "$found" ] || complain "not formatted (make format)" "$found"
 elif [ -n "${CI:-}" ]; then

@@ -144,8 +144,7 @@ bool ang_reslice(const ang_volume *volume, const ang_reslice_plane *plane, int t
     if (plane->width < 1 || plane->height < 1)
         return ang_fail(err, ANG_USAGE, "a slice of %d x %d pixels does not exist", plane->width, plane->height);
     ang_vec3 normal = normal_of(plane);
-    if (!(ang_vec3_length(normal) > 0.5))
-        return ang_fail(err, ANG_USAGE, "the two directions of a slice are parallel");
+    if (!(ang_vec3_length(normal) > 0.5)) return ang_fail(err, ANG_USAGE, "the two directions of a slice are parallel");
     if (!ang_mat4_inverse(&volume->affine, &to_index))
         return ang_fail(err, ANG_GEOMETRY, "the volume's axes lie in one plane or its spacing is zero");
     job job = {.volume = volume, .plane = plane, .hu = hu, .planes = ang_reslice_planes(volume, plane)};

@@ -1,13 +1,13 @@
 #include "io/image/annotate.h"
 
 #include "core/base/memory.h"
+#include "io/font.h"
 #include "io/image/encode.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Coverages of what is drawn, and where it goes. */
 typedef struct sheet {
@@ -20,22 +20,8 @@ typedef struct sheet {
 
 #ifdef ANG_WITH_OIIO
 #define FONT_LACKS "the font DejaVuSans.ttf is missing; install fonts-dejavu-core"
-
-static const char *find_font(void) {
-    static const char *const places[] = {
-        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-        "/usr/share/fonts/dejavu/DejaVuSans.ttf",          "/usr/share/fonts/TTF/DejaVuSans.ttf",
-        "/usr/local/share/fonts/DejaVuSans.ttf",
-    };
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        if (access(places[i], R_OK) == 0) return places[i];
-    }
-    return NULL;
-}
 #else
 #define FONT_LACKS "this build has no OpenImageIO"
-
-static const char *find_font(void) { return NULL; }
 #endif
 
 static bool text_extent(const sheet *sheet, const char *text, int size, int *width, int *top, int *bottom) {
@@ -194,7 +180,7 @@ bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_
         return true;
     }
 
-    sheet.font = find_font();
+    sheet.font = ang_font_find();
     if (!sheet.font) {
         /* A bar without its length would say nothing. */
         if (warnings) ang_notes_add(warnings, "letters, caption and bar are left out of the picture: " FONT_LACKS);

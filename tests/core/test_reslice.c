@@ -123,7 +123,8 @@ static void slabs_show_mean_and_extremes(void **state) {
 static void axes_of_one_voxel_have_a_thickness(void **state) {
     (void)state;
     ang_volume *volume = make_volume(6, 6, 1, (double[]){1, 1, 3}, linear);
-    ang_reslice_plane plane = {.origin = {2, 3, 1.4}, .step_x = {1, 0, 0}, .step_y = {0, 0, 1}, .width = 2, .height = 2};
+    ang_reslice_plane plane = {
+        .origin = {2, 3, 1.4}, .step_x = {1, 0, 0}, .step_y = {0, 0, 1}, .width = 2, .height = 2};
     assert_true(ang_reslice(volume, &plane, 1, hu, NULL));
     assert_close((double)hu[0], linear(2, 3, 0), 1e-3);
     assert_close((double)hu[1], linear(3, 3, 0), 1e-3);

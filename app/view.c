@@ -1,0 +1,178 @@
+/* angioscope view: the window. */
+#include "app/verbs.h"
+
+#ifdef ANG_WITH_WINDOW
+
+#include "app/picture.h"
+#include "app/view_state.h"
+#include "io/font.h"
+#include "io/image/image_io.h"
+#include "io/load.h"
+#include "io/preset.h"
+#include "io/replace.h"
+#include "ui/viewer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MOST_PRESETS = 126, MOST_PICTURES = 10000 };
+
+typedef struct view {
+    const ang_options *options;
+    ang_preset *presets[MOST_PRESETS + 2];
+    int preset_count;
+    char *state; /* as last written; NULL: not yet */
+    bool state_failed;
+} view;
+
+static void copy_notes(const ang_load_report *report, ang_study *study) {
+    ang_notes_append(&study->notes, &report->warnings);
+    study->warnings = (int)study->notes.count;
+    ang_notes_append(&study->notes, &report->assumptions);
+}
+
+static void write_label(const ang_load_report *report, ang_study *study) {
+    const ang_series_info *info = &report->series[report->chosen];
+    bool described = info->description && info->description[0];
+    snprintf(study->label, sizeof study->label, "%s series %d%s%.60s", info->modality, info->number,
+             described ? ": " : "", described ? info->description : "");
+}
+
+static void release(void *context, ang_study *study) {
+    (void)context;
+    ang_volume_free(study->volume);
+    ang_notes_clear(&study->notes);
+    if (study->handle) ang_load_report_clear(study->handle);
+    free(study->handle);
+    *study = (ang_study){0};
+}
+
+static bool load(void *context, const char *path, ang_study *study, const ang_progress *progress, ang_error *err) {
+    const ang_options *options = ((view *)context)->options;
+    ang_load_options how = {.series = options->series,
+                            .raw_dims = options->raw_dims,
+                            .raw_type = options->raw_type,
+                            .raw_spacing = options->raw_spacing,
+                            .threads = options->threads,
+                            .strict = options->strict};
+    *study = (ang_study){0};
+    ang_load_report *report = calloc(1, sizeof *report);
+    if (!report) return ang_fail(err, ANG_LIMIT, "no memory for a report");
+    study->handle = report;
+    study->volume = ang_load(path, &how, report, progress, err);
+    if (!study->volume) {
+        release(context, study);
+        return false;
+    }
+    study->hounsfield = ang_load_report_hounsfield(report);
+    study->window_centre = report->window_centre;
+    study->window_width = report->window_width;
+    write_label(report, study);
+    copy_notes(report, study);
+    return true;
+}
+
+static ang_preset *preset_for(void *context, const ang_study *study, ang_error *err) {
+    ang_notes notes = {0};
+    ang_preset *preset =
+        ang_picture_choose_preset(((view *)context)->options, study->volume, study->handle, &notes, err);
+    ang_notes_clear(&notes);
+    return preset;
+}
+
+static bool save_picture(void *context, const char *what, const ang_image *image, char *path, size_t size,
+                         ang_error *err) {
+    static const double black[4] = {0, 0, 0, 1};
+    const char *folder = ((view *)context)->options->pictures;
+    if (!ang_folder_make(folder, err)) return false;
+    for (int i = 1; i < MOST_PICTURES; i++) {
+        snprintf(path, size, "%s/angioscope-%s-%04d.png", folder, what, i);
+        if (access(path, F_OK) != 0) return ang_image_write(path, image, black, err);
+    }
+    return ang_fail(err, ANG_OUTPUT, "%s: holds %d pictures of this kind; name another folder with --pictures", folder,
+                    MOST_PICTURES - 1);
+}
+
+/* Only what has changed is written. */
+static void shown(void *context, const ang_viewer_state *state) {
+    view *view = context;
+    char *text = ang_view_state_print(state);
+    if (!text || (view->state && strcmp(text, view->state) == 0)) {
+        free(text);
+        return;
+    }
+    ang_error err = {0};
+    if (!ang_file_replace(view->options->write_state, text, strlen(text), &err) && !view->state_failed) {
+        fprintf(stderr, "angioscope: %s\n", err.message);
+        view->state_failed = true;
+    }
+    free(view->state);
+    view->state = text;
+}
+
+/* The folders' presets; one that cannot be read is said and left out. The one that was asked for comes first where it
+ * is a file. */
+static bool read_presets(view *view, const char **chosen, ang_error *err) {
+    ang_preset_names names;
+    if (view->options->preset) {
+        ang_preset *asked = ang_preset_find(view->options->preset, ang_app_preset_folders(), err);
+        if (!asked) return false;
+        view->presets[view->preset_count++] = asked;
+        *chosen = asked->name;
+    }
+    if (!ang_preset_list(ang_app_preset_folders(), &names, err)) return false;
+    for (size_t i = 0; i < names.count && view->preset_count < MOST_PRESETS; i++) {
+        ang_error broken = {0};
+        if (*chosen && strcmp(names.names[i], *chosen) == 0) continue;
+        ang_preset *preset = ang_preset_load(names.paths[i], &broken);
+        if (preset)
+            view->presets[view->preset_count++] = preset;
+        else
+            fprintf(stderr, "warning: %s\n", broken.message);
+    }
+    ang_preset_names_clear(&names);
+    return true;
+}
+
+static bool run(view *view, ang_error *err) {
+    const ang_options *options = view->options;
+    ang_viewer_options how = {.path = options->argument_count > 0 ? options->arguments[0] : NULL};
+    int size[2] = {0};
+    if (options->size && !ang_app_parse_dims("size", options->size, 2, 16384, size, err)) return false;
+    how.width = size[0];
+    how.height = size[1];
+    if (!read_presets(view, &how.preset, err)) return false;
+    ang_viewer_host host = {.context = view,
+                            .load = load,
+                            .release = release,
+                            .preset_for = preset_for,
+                            .save_picture = save_picture,
+                            .shown = options->write_state ? shown : NULL,
+                            .presets = (const ang_preset *const *)view->presets,
+                            .font = ang_font_find(),
+                            .version = ANG_VERSION,
+                            .threads = options->threads};
+    return ang_viewer_run(&host, &how, err);
+}
+
+int ang_app_view(const ang_options *options, ang_error *err) {
+    if (options->argument_count > 1 && !ang_app_arguments(options, 1, "view: give one file or folder to open", err))
+        return ANG_USAGE;
+    view view = {.options = options};
+    bool done = run(&view, err);
+    for (int i = 0; i < view.preset_count; i++) ang_preset_free(view.presets[i]);
+    free(view.state);
+    return done ? ANG_OK : (int)err->code;
+}
+
+#else
+
+int ang_app_view(const ang_options *options, ang_error *err) {
+    (void)options;
+    ang_fail(err, ANG_USAGE, "view: this build has no window (ANG_WINDOW); 'angioscope render' makes pictures");
+    return ANG_USAGE;
+}
+
+#endif

@@ -1,0 +1,354 @@
+/* Everything that can be done by menu or key, in one table; menus, shortcuts and the help overlay are made of it. */
+#include "ui/viewer_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct action {
+    const char *menu; /* NULL: only a key */
+    const char *name;
+    const char *help; /* what the name does not say; NULL: nothing */
+    int key;          /* ang_key; 0: none */
+    unsigned modifiers;
+    void (*run)(ang_viewer *viewer, int argument);
+    int argument;
+    bool (*enabled)(const ang_viewer *viewer);               /* NULL: always */
+    bool (*checked)(const ang_viewer *viewer, int argument); /* NULL: no tick */
+} action;
+
+typedef struct window_preset {
+    const char *name;
+    double width, centre; /* HU */
+} window_preset;
+static const window_preset windows[] = {{"Of the file", NAN, NAN}, {"CTA", 600, 200},    {"Soft tissue", 400, 40},
+                                        {"Bone", 2000, 400},       {"Lung", 1500, -600}, {"Brain", 80, 40},
+                                        {"Mediastinum", 350, 50},  {"Liver", 150, 70},   {"Stent", 2500, 700}};
+enum { window_count = sizeof windows / sizeof *windows };
+
+static bool is_ready(const ang_viewer *viewer) { return viewer->ready; }
+static bool can_undo(const ang_viewer *viewer) { return viewer->ready && ang_history_can_undo(&viewer->history); }
+static bool can_redo(const ang_viewer *viewer) { return viewer->ready && ang_history_can_redo(&viewer->history); }
+static bool has_notes(const ang_viewer *viewer) { return viewer->ready && viewer->study.notes.count > 0; }
+
+static void open_path(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->opening = true;
+}
+
+/* The pane under the pointer, else the large one, else the volume. */
+static ang_pane chosen_pane(const ang_viewer *viewer) {
+    if (viewer->hovered < ANG_PANES) return viewer->hovered;
+    return viewer->maximised >= 0 ? (ang_pane)viewer->maximised : ANG_PANE_VOLUME;
+}
+
+static void save_pane(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->save_wanted = true;
+    viewer->save_pane = chosen_pane(viewer);
+}
+
+static void save_window(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->save_window = true;
+}
+
+static void quit(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_window_close(viewer->window);
+}
+
+static void undo(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_history_undo(&viewer->history, &viewer->document);
+    viewer->point = -1;
+}
+
+static void redo(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_history_redo(&viewer->history, &viewer->document);
+    viewer->point = -1;
+}
+
+static void reset_slice(ang_viewer *viewer, int orientation) {
+    viewer->slice[orientation].view = ang_slice_view_default;
+}
+
+static void reset_view(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_pane pane = viewer->hovered;
+    for (int i = 0; i < ANG_ORIENTATIONS; i++)
+        if (pane == ANG_PANES || (int)pane == i) reset_slice(viewer, i);
+    if (pane == ANG_PANES || pane == ANG_PANE_VOLUME) viewer->document.view = ang_viewer_first_view;
+}
+
+static void centre_crosshair(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_viewer_point_at(viewer, ang_volume_centre(viewer->study.volume));
+}
+
+static void standard_view(ang_viewer *viewer, int argument) {
+    static const char *const names[] = {"anterior", "posterior", "left", "right", "superior", "inferior"};
+    ang_view_parse(names[argument], &viewer->document.view, NULL);
+    viewer->document.view.pan_mm[0] = viewer->document.view.pan_mm[1] = 0;
+}
+
+static void toggle_projection(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_view *view = &viewer->document.view;
+    view->projection = view->projection == ANG_PARALLEL ? ANG_PERSPECTIVE : ANG_PARALLEL;
+}
+static bool is_parallel(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->document.view.projection == ANG_PARALLEL;
+}
+
+static void choose_tool(ang_viewer *viewer, int tool) { viewer->tool = (ang_tool)tool; }
+static bool is_tool(const ang_viewer *viewer, int tool) { return viewer->tool == (ang_tool)tool; }
+
+static void maximise(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->maximised = viewer->maximised >= 0 ? -1 : (int)chosen_pane(viewer);
+}
+static bool is_maximised(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->maximised >= 0;
+}
+
+static void toggle(bool *flag) { *flag = !*flag; }
+static void toggle_text(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->corner_text);
+}
+static bool shows_text(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->corner_text;
+}
+static void toggle_crosshair(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->crosshair_shown);
+}
+static bool shows_crosshair(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->crosshair_shown;
+}
+static void full_screen(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_window_toggle_full_screen(viewer->window);
+}
+
+static void scroll(ang_viewer *viewer, int slices) {
+    ang_pane pane = viewer->hovered < ANG_PANE_VOLUME ? viewer->hovered
+                    : viewer->maximised >= 0          ? (ang_pane)viewer->maximised
+                                                      : ANG_PANE_AXIAL;
+    if (pane < ANG_PANE_VOLUME) ang_slice_scroll(viewer, (ang_orientation)pane, slices);
+}
+
+static void slab_thickness(ang_viewer *viewer, int direction) {
+    static const double steps[] = {0, 2, 5, 10, 20, 40, 80};
+    enum { count = sizeof steps / sizeof *steps };
+    int at = 0;
+    while (at + 1 < count && steps[at + 1] <= viewer->document.slab_mm) at++;
+    at += direction;
+    viewer->document.slab_mm = steps[at < 0 ? 0 : at >= count ? count - 1 : at];
+}
+
+static void set_window(ang_viewer *viewer, int argument) {
+    const ang_preset *const *presets = viewer->host->presets;
+    if (viewer->hovered == ANG_PANE_VOLUME) {
+        int count = 0;
+        while (presets[count]) count++;
+        if (argument < count) ang_viewer_choose_preset(viewer, presets[argument]);
+        return;
+    }
+    double width = windows[argument].width, centre = windows[argument].centre;
+    if (argument == 0) ang_viewer_file_window(viewer, &centre, &width);
+    viewer->document.window_centre = centre;
+    viewer->document.window_width = width;
+}
+
+static void choose_window(ang_viewer *viewer, int argument) {
+    viewer->hovered = ANG_PANES; /* from the menu it is the window that is meant */
+    set_window(viewer, argument);
+}
+
+static void show_help(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->help);
+}
+static void show_notes(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->notes);
+}
+
+enum { C = ANG_MOD_CONTROL, S = ANG_MOD_SHIFT, A = ANG_MOD_ALT };
+
+static const action actions[] = {
+    {"File", "Open...", "a folder or file; or drop it on the window", 'O', C, open_path, 0, NULL, NULL},
+    {"File", "Save picture of the pane", "under the pointer; refined, without writing on it", 'S', C, save_pane, 0,
+     is_ready, NULL},
+    {"File", "Save picture of the window", NULL, 'S', C | S, save_window, 0, NULL, NULL},
+    {"File", "Quit", NULL, 'Q', C, quit, 0, NULL, NULL},
+    {"Edit", "Undo", "presets, points, windows, camera", 'Z', C, undo, 0, can_undo, NULL},
+    {"Edit", "Redo", NULL, 'Z', C | S, redo, 0, can_redo, NULL},
+    {"Tools", "Window", "left drag in a slice: across width, up and down centre", 'W', 0, choose_tool, ANG_TOOL_WINDOW,
+     is_ready, is_tool},
+    {"Tools", "Crosshair", "left drag in a slice moves it", 'C', 0, choose_tool, ANG_TOOL_CROSSHAIR, is_ready, is_tool},
+    {"Tools", "Pan", "also middle drag, or Space and left drag", 'P', 0, choose_tool, ANG_TOOL_PAN, is_ready, is_tool},
+    {"Tools", "Crosshair to the centre", NULL, ANG_KEY_HOME, 0, centre_crosshair, 0, is_ready, NULL},
+    {"View", "Reset view", "of the pane under the pointer, else of all", 'R', 0, reset_view, 0, is_ready, NULL},
+    {"View", "One pane large", "also a double click", ANG_KEY_ENTER, 0, maximise, 0, is_ready, is_maximised},
+    {"View", "Anterior", NULL, 'A', A, standard_view, 0, is_ready, NULL},
+    {"View", "Posterior", NULL, 'P', A, standard_view, 1, is_ready, NULL},
+    {"View", "Left", NULL, 'L', A, standard_view, 2, is_ready, NULL},
+    {"View", "Right", NULL, 'R', A, standard_view, 3, is_ready, NULL},
+    {"View", "Superior", NULL, 'S', A, standard_view, 4, is_ready, NULL},
+    {"View", "Inferior", NULL, 'I', A, standard_view, 5, is_ready, NULL},
+    {"View", "Parallel projection", NULL, 'O', 0, toggle_projection, 0, is_ready, is_parallel},
+    {"View", "Crosshair lines", NULL, 'X', S, toggle_crosshair, 0, is_ready, shows_crosshair},
+    {"View", "Text on the panes", NULL, 'T', 0, toggle_text, 0, is_ready, shows_text},
+    {"View", "Full screen", NULL, ANG_KEY_F11, 0, full_screen, 0, NULL, NULL},
+    {"Slices", "Next slice", "also the wheel; of the slice under the pointer, else axial", ANG_KEY_UP, 0, scroll, 1,
+     is_ready, NULL},
+    {"Slices", "Previous slice", NULL, ANG_KEY_DOWN, 0, scroll, -1, is_ready, NULL},
+    {"Slices", "Ten slices on", NULL, ANG_KEY_PAGE_UP, 0, scroll, 10, is_ready, NULL},
+    {"Slices", "Ten slices back", NULL, ANG_KEY_PAGE_DOWN, 0, scroll, -10, is_ready, NULL},
+    {"Slices", "Thicker slab", NULL, ']', 0, slab_thickness, 1, is_ready, NULL},
+    {"Slices", "Thinner slab", NULL, '[', 0, slab_thickness, -1, is_ready, NULL},
+    {"Help", "What keys and mouse do", NULL, ANG_KEY_F1, 0, show_help, 0, NULL, NULL},
+    {"Help", "What loading assumed", NULL, ANG_KEY_F2, 0, show_notes, 0, has_notes, NULL},
+};
+enum { action_count = sizeof actions / sizeof *actions };
+
+static const char *shortcut(int key, unsigned modifiers, char text[32]) {
+    char name[8];
+    snprintf(text, 32, "%s%s%s%s", modifiers & C ? "Ctrl+" : "", modifiers & A ? "Alt+" : "",
+             modifiers & S ? "Shift+" : "", ang_key_name(key, name));
+    return text;
+}
+
+/* What is open or under way ends, the foremost first. */
+static void escape(ang_viewer *viewer) {
+    ang_gesture *gesture = &viewer->gesture;
+    bool dragging = gesture->pane >= 0 && !gesture->cancelled && ang_gui_holding(viewer->gui);
+    if (dragging) {
+        viewer->document = gesture->before;
+        viewer->crosshair = gesture->crosshair;
+        if (gesture->pane < ANG_PANE_VOLUME) viewer->slice[gesture->pane].view = gesture->view;
+        gesture->cancelled = true;
+    } else if (viewer->opening || viewer->help || viewer->notes) {
+        viewer->opening = viewer->help = viewer->notes = false;
+    } else if (viewer->loading.running) {
+        ang_loading_stop(&viewer->loading);
+    } else if (viewer->failure[0] && viewer->ready) {
+        viewer->failure[0] = '\0';
+    } else {
+        viewer->maximised = -1;
+    }
+}
+
+static void press(ang_viewer *viewer, int key, unsigned modifiers) {
+    for (int i = 0; i < action_count; i++) {
+        const action *action = &actions[i];
+        if (action->key != key || action->modifiers != modifiers) continue;
+        if (!action->enabled || action->enabled(viewer)) action->run(viewer, action->argument);
+        return;
+    }
+    if (key >= '1' && key < '1' + window_count && modifiers == 0 && viewer->ready) set_window(viewer, key - '1');
+}
+
+void ang_actions_keys(ang_viewer *viewer) {
+    const ang_input *input = &viewer->input;
+    for (int i = 0; i < input->press_count; i++) {
+        int key = input->press[i].key;
+        if (key == ANG_KEY_ESCAPE && !ang_gui_popup_open(viewer->gui)) {
+            escape(viewer);
+            continue;
+        }
+        if (key == ANG_KEY_NONE || viewer->typing || ang_gui_popup_open(viewer->gui)) continue;
+        press(viewer, key, input->press[i].modifiers);
+    }
+}
+
+static void list_windows(ang_viewer *viewer) {
+    if (!ang_gui_menu_begin(viewer->gui, "Window level")) return;
+    for (int i = 0; i < window_count; i++) {
+        char text[80], key[2] = {(char)('1' + i), '\0'};
+        if (i == 0)
+            snprintf(text, sizeof text, "%s", windows[i].name);
+        else
+            snprintf(text, sizeof text, "%s   W %.0f  C %.0f", windows[i].name, windows[i].width, windows[i].centre);
+        if (ang_gui_menu_item(viewer->gui, text, key, false, viewer->ready)) choose_window(viewer, i);
+    }
+    ang_gui_menu_end(viewer->gui);
+}
+
+double ang_actions_menus(ang_viewer *viewer) {
+    ang_gui *gui = viewer->gui;
+    double height = ang_gui_menu_bar_begin(gui);
+    for (int first = 0; first < action_count;) {
+        const char *menu = actions[first].menu;
+        int end = first;
+        while (end < action_count && strcmp(actions[end].menu, menu) == 0) end++;
+        if (strcmp(menu, "Help") == 0) list_windows(viewer);
+        bool open = ang_gui_menu_begin(gui, menu);
+        for (int i = first; i < end && open; i++) {
+            const action *action = &actions[i];
+            char text[32];
+            bool enabled = !action->enabled || action->enabled(viewer);
+            bool checked = action->checked && viewer->ready && action->checked(viewer, action->argument);
+            if (ang_gui_menu_item(gui, action->name, shortcut(action->key, action->modifiers, text), checked, enabled))
+                action->run(viewer, action->argument);
+            if (action->help) ang_gui_tooltip(gui, action->help);
+        }
+        if (open) ang_gui_menu_end(gui);
+        first = end;
+    }
+    ang_gui_menu_bar_end(gui);
+    return height;
+}
+
+/* What is no action but done by hand. */
+static const struct {
+    const char *hand, *does;
+} hands[] = {
+    {"Left drag", "slice: the tool (window, crosshair, pan); 3D: turn"},
+    {"Click", "crosshair: here; 3D: to the first visible surface"},
+    {"Middle drag, Space + left", "pan"},
+    {"Right drag, Ctrl + wheel", "zoom about the pointer"},
+    {"Wheel", "slice: scroll; 3D: zoom"},
+    {"Shift + drag in 3D", "up and down: shift the preset; across: stretch it"},
+    {"Double click", "the pane large, and back"},
+    {"Shift in a drag of numbers", "ten times finer"},
+    {"Esc", "cancel a drag, loading, a window"},
+    {"1 ... 9", "windows; over the 3D pane: presets"},
+};
+
+static void help_row(ang_gui *gui, const char *left, const char *right, const char *more) {
+    ang_gui_table_next(gui);
+    ang_gui_text(gui, "%s", left);
+    ang_gui_table_next(gui);
+    if (more)
+        ang_gui_text_dim(gui, "%s: %s", right, more);
+    else
+        ang_gui_text_dim(gui, "%s", right);
+}
+
+void ang_actions_help(ang_viewer *viewer) {
+    if (!viewer->help) return;
+    ang_gui *gui = viewer->gui;
+    char text[32];
+    ang_gui_message_begin(gui, "help");
+    bool open = ang_gui_table_begin(gui, "keys", 4);
+    for (int i = 0, hand = 0; i < action_count && open; i++) {
+        help_row(gui, shortcut(actions[i].key, actions[i].modifiers, text), actions[i].name, NULL);
+        bool left = hand < (int)(sizeof hands / sizeof *hands);
+        help_row(gui, left ? hands[hand].hand : "", left ? hands[hand].does : "", NULL);
+        hand++;
+    }
+    if (open) ang_gui_table_end(gui);
+    ang_gui_gap(gui, ang_gui_px(gui, 8));
+    ang_gui_text_dim(gui, "Angioscope %s. Not a medical device; not for diagnosis. F1 or Esc closes this.",
+                     viewer->host->version);
+    ang_gui_message_end(gui);
+}

@@ -1,0 +1,169 @@
+#include "ui/document.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { most_states = 500 };
+static const double same_gesture_seconds = 1;
+
+void ang_document_take_preset(ang_document *document, const ang_preset *preset) {
+    const ang_transfer *transfer = preset->transfer;
+    memset(document->preset, 0, sizeof document->preset);
+    snprintf(document->preset, sizeof document->preset, "%s", preset->name);
+    document->edited = false;
+    int count = transfer->count < ANG_DOCUMENT_POINTS ? (int)transfer->count : ANG_DOCUMENT_POINTS;
+    memset(document->points, 0, sizeof document->points);
+    for (int i = 0; i < count; i++) {
+        size_t from = count > 1 ? (size_t)i * (transfer->count - 1) / (size_t)(count - 1) : 0;
+        document->points[i] = transfer->points[from];
+    }
+    document->count = count;
+    document->unit_distance = transfer->unit_distance;
+    document->by_extinction = transfer->by_extinction;
+    document->shift_hu = 0;
+    document->stretch = 1;
+    document->mode = preset->mode;
+    document->shading = preset->shading;
+    document->phong = preset->phong;
+    if (isfinite(preset->iso_hu)) document->iso_hu = preset->iso_hu;
+    if (preset->mode == ANG_MODE_MIP || preset->mode == ANG_MODE_MINIP || preset->mode == ANG_MODE_MEAN) {
+        document->window_centre = preset->window_centre;
+        document->window_width = preset->window_width;
+    }
+}
+
+ang_transfer *ang_document_transfer(const ang_document *document, ang_error *err) {
+    return ang_transfer_create(document->points, (size_t)document->count, document->unit_distance,
+                               document->by_extinction, NULL, err);
+}
+
+/* The middle of what shows anything. */
+static double middle(const ang_document *document) {
+    int first = 0, last = document->count - 1;
+    while (first < last && !(document->points[first + 1].opacity > 0)) first++;
+    while (last > first && !(document->points[last - 1].opacity > 0)) last--;
+    return (document->points[first].hu + document->points[last].hu) / 2;
+}
+
+void ang_document_bend(ang_document *document, const ang_document *from, double shift, double stretch) {
+    double about = middle(from);
+    for (int i = 0; i < from->count; i++)
+        document->points[i].hu = about + (from->points[i].hu - about) * stretch + shift;
+    document->iso_hu = about + (from->iso_hu - about) * stretch + shift;
+    document->shift_hu = from->shift_hu + shift;
+    document->stretch = from->stretch * stretch;
+    document->edited = true;
+}
+
+int ang_document_add_point(ang_document *document, double hu) {
+    if (document->count >= ANG_DOCUMENT_POINTS) return -1;
+    int at = 0;
+    while (at < document->count && document->points[at].hu <= hu) at++;
+    const ang_transfer_point *left = &document->points[at > 0 ? at - 1 : 0];
+    const ang_transfer_point *right = &document->points[at < document->count ? at : document->count - 1];
+    double span = right->hu - left->hu, t = span > 0 ? (hu - left->hu) / span : 0;
+    ang_transfer_point point = {.hu = hu, .opacity = left->opacity + t * (right->opacity - left->opacity)};
+    for (int i = 0; i < 3; i++) point.colour[i] = left->colour[i] + t * (right->colour[i] - left->colour[i]);
+    memmove(&document->points[at + 1], &document->points[at], (size_t)(document->count - at) * sizeof point);
+    document->points[at] = point;
+    document->count++;
+    document->edited = true;
+    return at;
+}
+
+void ang_document_delete_point(ang_document *document, int index) {
+    if (document->count < 2 || index < 0 || index >= document->count) return;
+    document->count--;
+    memmove(&document->points[index], &document->points[index + 1],
+            (size_t)(document->count - index) * sizeof document->points[0]);
+    memset(&document->points[document->count], 0, sizeof document->points[0]);
+    document->edited = true;
+}
+
+void ang_document_move_point(ang_document *document, int index, double hu, double opacity) {
+    ang_transfer_point *point = &document->points[index];
+    double low = index > 0 ? point[-1].hu : -ANG_TRANSFER_HU_LIMIT;
+    double high = index + 1 < document->count ? point[1].hu : ANG_TRANSFER_HU_LIMIT;
+    point->hu = fmin(fmax(hu, low), high);
+    opacity = fmin(fmax(opacity, 0), 1);
+    point->opacity = document->by_extinction
+                         ? fmin(-log1p(-opacity) / document->unit_distance, ANG_TRANSFER_EXTINCTION_LIMIT)
+                         : opacity;
+    document->edited = true;
+}
+
+double ang_document_opacity(const ang_document *document, int index) {
+    double value = document->points[index].opacity;
+    return document->by_extinction ? -expm1(-value * document->unit_distance) : value;
+}
+
+/* What two states differ in. */
+enum { PART_CAMERA = 1, PART_WINDOW = 2, PART_REST = 4 };
+
+/* Bytes: what could be written without a difference has no padding that is ever written to (documents are copied whole
+ * and begin as zeros). */
+static unsigned difference(const ang_document *a, const ang_document *b) {
+    unsigned parts = 0;
+    if (memcmp(&a->view, &b->view, sizeof a->view) != 0) parts |= PART_CAMERA;
+    if (memcmp(&a->window_centre, &b->window_centre, sizeof(double)) != 0 ||
+        memcmp(&a->window_width, &b->window_width, sizeof(double)) != 0)
+        parts |= PART_WINDOW;
+    ang_document rest = *a;
+    rest.view = b->view;
+    rest.window_centre = b->window_centre;
+    rest.window_width = b->window_width;
+    if (memcmp(&rest, b, sizeof rest) != 0) parts |= PART_REST;
+    return parts;
+}
+
+void ang_history_note(ang_history *history, const ang_document *document, double seconds) {
+    if (history->count > 0) {
+        unsigned parts = difference(&history->states[history->now], document);
+        if (parts == 0) return;
+        bool again = history->now > 0 && parts == history->parts && (parts & PART_REST) == 0 &&
+                     seconds - history->seconds <= same_gesture_seconds && history->now == history->count - 1;
+        history->seconds = seconds;
+        history->parts = parts;
+        if (again) {
+            history->states[history->now] = *document;
+            return;
+        }
+    }
+    if (history->count > 0) history->count = history->now + 1; /* a new future */
+    if (history->count == most_states) {
+        memmove(history->states, history->states + 1, (size_t)(most_states - 1) * sizeof *history->states);
+        history->count--;
+    }
+    if (history->count == history->capacity) {
+        int capacity = history->capacity ? 2 * history->capacity : 16;
+        ang_document *grown = realloc(history->states, (size_t)capacity * sizeof *grown);
+        if (!grown) return; /* that step cannot be undone */
+        history->states = grown;
+        history->capacity = capacity;
+    }
+    history->states[history->count] = *document;
+    history->now = history->count++;
+}
+
+bool ang_history_can_undo(const ang_history *history) { return history->now > 0; }
+bool ang_history_can_redo(const ang_history *history) { return history->now + 1 < history->count; }
+
+bool ang_history_undo(ang_history *history, ang_document *document) {
+    if (!ang_history_can_undo(history)) return false;
+    *document = history->states[--history->now];
+    history->parts = 0;
+    return true;
+}
+
+bool ang_history_redo(ang_history *history, ang_document *document) {
+    if (!ang_history_can_redo(history)) return false;
+    *document = history->states[++history->now];
+    history->parts = 0;
+    return true;
+}
+
+void ang_history_clear(ang_history *history) {
+    free(history->states);
+    *history = (ang_history){0};
+}

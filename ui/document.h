@@ -1,0 +1,65 @@
+/* What undo takes back: how the volume is shown. A plain value. */
+#ifndef ANG_UI_DOCUMENT_H
+#define ANG_UI_DOCUMENT_H
+
+#include "core/scene/scene.h"
+#include "core/transfer/preset.h"
+#include "core/volume/reslice.h"
+
+enum { ANG_DOCUMENT_POINTS = 128 };
+
+typedef struct ang_document {
+    char preset[64];                                /* the name of the one it began from */
+    bool edited;                                    /* its transfer function is no longer that preset's */
+    ang_transfer_point points[ANG_DOCUMENT_POINTS]; /* rising in HU */
+    int count;                                      /* >= 1 */
+    double unit_distance;                           /* mm */
+    bool by_extinction;                             /* as in ang_transfer */
+    double shift_hu, stretch; /* by how much drags have moved and widened it since the preset; 0, 1 */
+    ang_mode mode;
+    ang_shading shading;
+    ang_phong phong;
+    double iso_hu;                      /* finite */
+    ang_view view;                      /* the 3D camera */
+    double window_centre, window_width; /* HU, width > 0: slices, and 3D in modes of values */
+    ang_slab slab;
+    double slab_mm; /* 0: none */
+} ang_document;
+
+/* Takes over everything of a preset but the window, which it takes where the preset shows values (mip, minip, mean).
+ * Points beyond ANG_DOCUMENT_POINTS are left out evenly. */
+void ang_document_take_preset(ang_document *document, const ang_preset *preset);
+/* The transfer function. NULL with ANG_LIMIT. */
+ang_transfer *ang_document_transfer(const ang_document *document, ang_error *err);
+/* Moves the points of `from` by `shift` HU after spreading them by `stretch` (> 0) about the middle between the first
+ * and the last that shows anything, and the iso value along. */
+void ang_document_bend(ang_document *document, const ang_document *from, double shift, double stretch);
+
+/* Editing points. Moves keep the order: a point stops at its neighbours. */
+/* Inserts a point on the function at `hu`; its index, or -1 where there is no room. */
+int ang_document_add_point(ang_document *document, double hu);
+/* Never the last one. */
+void ang_document_delete_point(ang_document *document, int index);
+void ang_document_move_point(ang_document *document, int index, double hu, double opacity);
+/* What a point shows as opacity per unit distance (0..1), and how to set it, also where points give extinction. */
+double ang_document_opacity(const ang_document *document, int index);
+
+/* Past and future states. Zero-initialise; free with ang_history_clear. */
+typedef struct ang_history {
+    ang_document *states;
+    int count, capacity, now; /* states[now] is what is shown when nothing is pending */
+    double seconds;           /* when states[now] was noted */
+    unsigned parts;           /* what the step to it changed */
+} ang_history;
+
+/* Notes a state that is to be kept. Where it differs from the last in the camera or the window alone, and so did that
+ * from the one before, a second or less ago, it takes its place. */
+void ang_history_note(ang_history *history, const ang_document *document, double seconds);
+/* Steps back or forth; false where there is nothing. */
+bool ang_history_undo(ang_history *history, ang_document *document);
+bool ang_history_redo(ang_history *history, ang_document *document);
+bool ang_history_can_undo(const ang_history *history);
+bool ang_history_can_redo(const ang_history *history);
+void ang_history_clear(ang_history *history);
+
+#endif

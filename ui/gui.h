@@ -1,0 +1,134 @@
+/* Widgets and drawing, as a C interface to Dear ImGui: everything of it that the viewer uses. Immediate mode: a frame
+ * says what there is and learns at once what the hands did with it. All functions from one thread, between
+ * ang_gui_begin and ang_gui_end unless they say otherwise. Lengths and places are pixels. */
+#ifndef ANG_UI_GUI_H
+#define ANG_UI_GUI_H
+
+#include "core/base/error.h"
+#include "core/render/painter.h"
+#include "ui/input.h"
+#include "ui/window.h"
+
+typedef struct ang_gui ang_gui;
+
+typedef struct ang_rect {
+    double x, y, width, height;
+} ang_rect;
+
+/* A colour: bytes r, g, b, a in memory. */
+typedef uint32_t ang_ink;
+#define ANG_INK(r, g, b, a) ((ang_ink)(r) | (ang_ink)(g) << 8 | (ang_ink)(b) << 16 | (ang_ink)(a) << 24)
+
+/* `font`: a TrueType file, NULL: a built-in font of Latin letters. The window serves pointer and clipboard. Not thread
+ * safe; one at a time in a process. NULL with ANG_LIMIT. */
+ang_gui *ang_gui_create(ang_window *window, ang_painter *painter, const char *font, ang_error *err);
+void ang_gui_destroy(ang_gui *gui);
+
+/* Begins a frame; makes letters anew where the scale has changed. False with what uploading them gives. */
+bool ang_gui_begin(ang_gui *gui, const ang_input *input, ang_error *err);
+/* Ends it and paints it. */
+void ang_gui_end(ang_gui *gui);
+
+/* `length` at scale 1 in pixels, whole. */
+double ang_gui_px(const ang_gui *gui, double length);
+/* Whether a text field has the keyboard, so that letters are no shortcuts. */
+bool ang_gui_typing(const ang_gui *gui);
+/* Whether a button of the mouse holds a widget: a value is still being changed. */
+bool ang_gui_holding(const ang_gui *gui);
+/* Whether anything that is open (menu, popup) takes Esc for itself. */
+bool ang_gui_popup_open(const ang_gui *gui);
+
+/* A part of the window that does not move, with widgets from top to bottom. `solid`: filled as a panel. To be ended in
+ * any case. */
+void ang_gui_area_begin(ang_gui *gui, const char *name, ang_rect rect, bool solid);
+void ang_gui_area_end(ang_gui *gui);
+/* The same in front of all else, as large as its contents, centred in the window. */
+void ang_gui_message_begin(ang_gui *gui, const char *name);
+void ang_gui_message_end(ang_gui *gui);
+
+/* The bar of menus at the window's top; its height. */
+double ang_gui_menu_bar_begin(ang_gui *gui);
+void ang_gui_menu_bar_end(ang_gui *gui);
+bool ang_gui_menu_begin(ang_gui *gui, const char *label);
+void ang_gui_menu_end(ang_gui *gui);
+bool ang_gui_menu_item(ang_gui *gui, const char *label, const char *shortcut, bool checked, bool enabled);
+
+/* Widgets. Labels end at "##"; what follows only tells widgets of one label apart. `width` 0: what is left. */
+void ang_gui_text(ang_gui *gui, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ang_gui_text_dim(ang_gui *gui, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* With line breaks at the area's or the given width. */
+void ang_gui_paragraph(ang_gui *gui, const char *text, double width);
+/* As high as a row of controls. */
+void ang_gui_hint(ang_gui *gui, const char *text);
+void ang_gui_heading(ang_gui *gui, const char *text);
+void ang_gui_label(ang_gui *gui, const char *text); /* before a control of the same line, in a column of its own */
+void ang_gui_same_line(ang_gui *gui);
+void ang_gui_gap(ang_gui *gui, double height);
+bool ang_gui_button(ang_gui *gui, const char *label, double width, bool enabled);
+bool ang_gui_checkbox(ang_gui *gui, const char *label, bool *value);
+bool ang_gui_selectable(ang_gui *gui, const char *label, bool selected);
+/* One of `count` words; true where it changed. */
+bool ang_gui_choice(ang_gui *gui, const char *name, const char *const *words, int count, int *chosen, double width);
+/* A number that is dragged or, after a double click, typed; `speed` units a pixel; Shift: ten times finer. */
+bool ang_gui_number(ang_gui *gui, const char *name, double *value, double speed, double low, double high,
+                    const char *format, double width);
+/* A number that is typed: true when Enter or leaving the field changed it. */
+bool ang_gui_number_field(ang_gui *gui, const char *name, double *value, const char *format, double width);
+bool ang_gui_text_field(ang_gui *gui, const char *name, char *text, size_t size, double width);
+/* A swatch that opens a picker; red, green, blue in 0..1. */
+bool ang_gui_colour(ang_gui *gui, const char *name, double colour[3]);
+void ang_gui_progress(ang_gui *gui, double fraction, double width);
+/* Of the widget before. */
+void ang_gui_tooltip(ang_gui *gui, const char *text);
+double ang_gui_room(const ang_gui *gui); /* pixels left to the right of where the next widget goes */
+
+/* A list in columns. */
+bool ang_gui_table_begin(ang_gui *gui, const char *name, int columns);
+void ang_gui_table_next(ang_gui *gui); /* to the next cell */
+void ang_gui_table_end(ang_gui *gui);
+
+/* What the hands do on a canvas: an area that the program draws itself. */
+typedef struct ang_canvas {
+    ang_rect rect;
+    bool hovered;            /* the pointer is on it and nothing lies between */
+    int held;                /* ANG_BUTTON_* that went down on it and is still down; -1: none */
+    bool pressed;            /* `held` went down in this frame */
+    int released;            /* the button that went up in this frame; -1: none */
+    bool clicked;            /* `released` without having moved */
+    bool double_clicked;     /* left */
+    double x, y;             /* the pointer from the left top corner */
+    double dx, dy;           /* its movement since the last frame */
+    double start_x, start_y; /* where `held` or `released` went down */
+    double wheel;            /* turns, up positive; 0 where not hovered */
+    unsigned modifiers;      /* ANG_MOD_* */
+} ang_canvas;
+
+/* A pane of its own at `rect`, black; draw until its end. To be ended in any case. */
+void ang_gui_pane_begin(ang_gui *gui, const char *name, ang_rect rect, ang_canvas *canvas);
+void ang_gui_pane_end(ang_gui *gui);
+/* A canvas among widgets. */
+void ang_gui_canvas(ang_gui *gui, const char *name, double width, double height, ang_canvas *canvas);
+
+/* Drawing, in pixels of the window, onto the area or pane that is open. `small`: the smaller of the two sizes of
+ * letters. */
+void ang_gui_line(ang_gui *gui, double x0, double y0, double x1, double y1, ang_ink ink, double thickness);
+void ang_gui_frame(ang_gui *gui, ang_rect rect, ang_ink ink);
+void ang_gui_fill(ang_gui *gui, ang_rect rect, ang_ink ink);
+/* Between two colours, from left to right. */
+void ang_gui_fill_across(ang_gui *gui, ang_rect rect, ang_ink left, ang_ink right);
+void ang_gui_disc(ang_gui *gui, double x, double y, double radius, ang_ink ink);
+void ang_gui_ring(ang_gui *gui, double x, double y, double radius, ang_ink ink, double thickness);
+void ang_gui_picture(ang_gui *gui, const ang_paint_texture *texture, ang_rect rect);
+/* `align` 0: x is the left end, 0.5: the middle, 1: the right end; y is the top. With a dark outline where `outlined`,
+ * to be read on any picture. */
+void ang_gui_write(ang_gui *gui, double x, double y, double align, bool small, bool outlined, ang_ink ink,
+                   const char *text);
+double ang_gui_text_width(const ang_gui *gui, const char *text, bool small);
+double ang_gui_text_height(const ang_gui *gui, bool small);
+void ang_gui_clip(ang_gui *gui, ang_rect rect);
+void ang_gui_unclip(ang_gui *gui);
+
+/* The pointer's shape for this frame, where no widget wants another. */
+void ang_gui_cursor(ang_gui *gui, ang_cursor cursor);
+
+#endif

@@ -1,0 +1,139 @@
+/* What is written on the panes, and the status line. */
+#include "core/scene/annotation.h"
+#include "ui/viewer_private.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double margin = 8; /* from a pane's edges, at scale 1 */
+
+ang_ink ang_pane_ink(ang_pane pane, unsigned alpha) {
+    /* 3D Slicer's: red, green, yellow; violet for the volume. */
+    static const ang_ink inks[ANG_PANES] = {ANG_INK(243, 74, 51, 0), ANG_INK(110, 176, 75, 0), ANG_INK(237, 213, 76, 0),
+                                            ANG_INK(140, 140, 224, 0)};
+    return inks[pane] | (ang_ink)alpha << 24;
+}
+
+static bool small(const ang_viewer *viewer, ang_rect rect) {
+    return rect.width < ang_gui_px(viewer->gui, 260) || rect.height < ang_gui_px(viewer->gui, 160);
+}
+
+void ang_pane_letters(ang_viewer *viewer, ang_rect rect, ang_vec3 right, ang_vec3 down) {
+    ang_gui *gui = viewer->gui;
+    double edge = ang_gui_px(gui, margin), tall = ang_gui_text_height(gui, false);
+    double x = rect.x + rect.width / 2, y = rect.y + rect.height / 2 - tall / 2;
+    ang_letters text = ang_letters_make(ang_vec3_scale(right, -1));
+    ang_gui_write(gui, rect.x + edge, y, 0, false, true, ANG_INK_TEXT, text.text);
+    text = ang_letters_make(right);
+    ang_gui_write(gui, rect.x + rect.width - edge, y, 1, false, true, ANG_INK_TEXT, text.text);
+    text = ang_letters_make(ang_vec3_scale(down, -1));
+    ang_gui_write(gui, x, rect.y + edge / 2, 0.5, false, true, ANG_INK_TEXT, text.text);
+    text = ang_letters_make(down);
+    ang_gui_write(gui, x, rect.y + rect.height - edge / 2 - tall, 0.5, false, true, ANG_INK_TEXT, text.text);
+}
+
+void ang_pane_bar(ang_viewer *viewer, ang_rect rect, double mm_per_pixel, bool at_centre) {
+    ang_gui *gui = viewer->gui;
+    if (small(viewer, rect) || !(mm_per_pixel > 0)) return;
+    double mm = ang_round_length(fmin(rect.width / 4, ang_gui_px(gui, 140)) * mm_per_pixel), length = mm / mm_per_pixel;
+    if (!(mm > 0)) return;
+    char text[64];
+    snprintf(text, sizeof text, "%.6g mm%s", mm, at_centre ? " at the centre" : "");
+    double line = ang_gui_text_height(gui, true) + ang_gui_px(gui, 3);
+    double right = rect.x + rect.width - ang_gui_px(gui, margin);
+    double y = rect.y + rect.height - ang_gui_px(gui, margin) - 2 * line - ang_gui_px(gui, 8);
+    double tick = ang_gui_px(gui, 4), thick = fmax(ang_gui_px(gui, 1), 1);
+    const ang_ink dark = ANG_INK(0, 0, 0, 200);
+    ang_rect parts[3] = {{right - length, y, length, thick},
+                         {right - length, y - tick, thick, 2 * tick + thick},
+                         {right - thick, y - tick, thick, 2 * tick + thick}};
+    for (int i = 0; i < 3; i++) {
+        ang_rect around = {parts[i].x - 1, parts[i].y - 1, parts[i].width + 2, parts[i].height + 2};
+        ang_gui_fill(gui, around, dark);
+    }
+    for (int i = 0; i < 3; i++) ang_gui_fill(gui, parts[i], ANG_INK_TEXT);
+    ang_gui_write(gui, right, y - tick - line, 1, true, true, ANG_INK_TEXT, text);
+}
+
+void ang_pane_corner(ang_viewer *viewer, ang_rect rect, int right, int bottom, int line, const char *text) {
+    ang_gui *gui = viewer->gui;
+    if (small(viewer, rect)) return;
+    double edge = ang_gui_px(gui, margin), tall = ang_gui_text_height(gui, true) + ang_gui_px(gui, 3);
+    double x = right ? rect.x + rect.width - edge : rect.x + edge;
+    double y =
+        bottom ? rect.y + rect.height - edge - (line + 1) * tall + ang_gui_px(gui, 3) : rect.y + edge + line * tall;
+    /* The pane's letter stands before its name. */
+    if (!right && !bottom && line == 0) x += ang_gui_px(gui, 20);
+    ang_gui_clip(gui, (ang_rect){rect.x, rect.y, rect.width, rect.height});
+    ang_gui_write(gui, x, y, right, true, true, ANG_INK_TEXT, text);
+    ang_gui_unclip(gui);
+}
+
+void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane) {
+    static const char *const letters[ANG_PANES] = {"A", "C", "S", "3D"};
+    ang_gui *gui = viewer->gui;
+    bool active = viewer->hovered == pane;
+    ang_gui_frame(gui, rect, ang_pane_ink(pane, active ? 255 : 110));
+    double edge = ang_gui_px(gui, margin);
+    ang_gui_write(gui, rect.x + edge, rect.y + edge - ang_gui_px(gui, 1), 0, false, true, ang_pane_ink(pane, 255),
+                  letters[pane]);
+}
+
+/* A cell of the status line, of a width that does not follow its text. */
+static void cell(ang_viewer *viewer, double *x, double y, double width, bool dim, const char *text) {
+    ang_gui_write(viewer->gui, *x, y, 0, true, false, dim ? ANG_INK_DIM : ANG_INK_TEXT, text);
+    *x += ang_gui_px(viewer->gui, width);
+}
+
+/* "L 12.3  P 4.0  H 100.0 mm": each with the letter of the side on which it lies. */
+static void write_place(ang_vec3 mm, char *text, size_t size) {
+    static const char positive[] = "LPH", negative[] = "RAF";
+    double at[3] = {mm.x, mm.y, mm.z};
+    char side[3];
+    for (int i = 0; i < 3; i++) side[i] = at[i] < 0 ? negative[i] : positive[i];
+    snprintf(text, size, "%c %.1f  %c %.1f  %c %.1f mm", side[0], fabs(at[0]), side[1], fabs(at[1]), side[2],
+             fabs(at[2]));
+}
+
+void ang_status_line(ang_viewer *viewer, ang_rect rect) {
+    ang_gui *gui = viewer->gui;
+    ang_gui_area_begin(gui, "status", rect, true);
+    double x = rect.x + ang_gui_px(gui, 12), y = rect.y + (rect.height - ang_gui_text_height(gui, true)) / 2;
+    char text[256];
+    if (viewer->ready) {
+        const ang_document *document = &viewer->document;
+        const char *unit = viewer->study.hounsfield ? "HU" : "";
+        bool hovering = viewer->hovered < ANG_PANE_VOLUME;
+        write_place(hovering ? viewer->hovered_mm : viewer->crosshair, text, sizeof text);
+        cell(viewer, &x, y, 200, false, text);
+        double hu = hovering ? viewer->hovered_hu : ang_viewer_hu_at(viewer, viewer->crosshair);
+        if (isnan(hu))
+            snprintf(text, sizeof text, "outside");
+        else
+            snprintf(text, sizeof text, "%.0f %s", hu, unit);
+        cell(viewer, &x, y, 72, false, text);
+        snprintf(text, sizeof text, "C %.0f  W %.0f", document->window_centre, document->window_width);
+        cell(viewer, &x, y, 110, true, text);
+        double zoom =
+            viewer->hovered < ANG_PANE_VOLUME ? viewer->slice[viewer->hovered].view.zoom : document->view.zoom;
+        snprintf(text, sizeof text, "zoom %.2f", zoom);
+        cell(viewer, &x, y, 76, true, text);
+        snprintf(text, sizeof text, "tool: %s", ang_tool_name(viewer->tool));
+        cell(viewer, &x, y, 110, true, text);
+        const ang_volume_picture *volume = &viewer->volume;
+        snprintf(text, sizeof text, "%s, %s", volume->method ? volume->method->name : "-",
+                 ang_mode_name(document->mode));
+        cell(viewer, &x, y, 110, true, text);
+        snprintf(text, sizeof text, "%.0f ms, %s", volume->frame_ms, volume->refined ? "refined" : "coarse");
+        cell(viewer, &x, y, 110, true, text);
+    }
+    if (viewer->message[0]) {
+        double right = rect.x + rect.width - ang_gui_px(gui, 12);
+        ang_ink ink = viewer->message_bad ? ANG_INK(240, 140, 110, 255) : ANG_INK_ACCENT;
+        ang_gui_clip(gui, (ang_rect){x, rect.y, fmax(right - x, 0), rect.height});
+        double width = ang_gui_text_width(gui, viewer->message, true);
+        ang_gui_write(gui, fmax(right - width, x), y, 0, true, false, ink, viewer->message);
+        ang_gui_unclip(gui);
+    }
+    ang_gui_area_end(gui);
+}

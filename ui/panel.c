@@ -1,0 +1,122 @@
+/* The panel at the side: presets, rendering, slices. */
+#include "ui/viewer_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void presets(ang_viewer *viewer) {
+    ang_gui *gui = viewer->gui;
+    ang_document *document = &viewer->document;
+    ang_gui_heading(gui, "PRESET");
+    const char *names[128];
+    const ang_preset *all[128];
+    int count = 0, chosen = -1;
+    if (viewer->own_preset) all[count++] = viewer->own_preset;
+    for (int i = 0; viewer->host->presets[i] && count < 128; i++) all[count++] = viewer->host->presets[i];
+    for (int i = 0; i < count; i++) {
+        names[i] = all[i]->name;
+        if (strcmp(names[i], document->preset) == 0) chosen = i;
+    }
+    double reset = ang_gui_px(gui, 64);
+    if (ang_gui_choice(gui, "##preset", names, count, &chosen, ang_gui_room(gui) - reset - ang_gui_px(gui, 8)))
+        ang_viewer_choose_preset(viewer, all[chosen]);
+    if (chosen >= 0) ang_gui_tooltip(gui, all[chosen]->description);
+    ang_gui_same_line(gui);
+    if (ang_gui_button(gui, "Reset", reset, document->edited && chosen >= 0))
+        ang_viewer_choose_preset(viewer, all[chosen]);
+    ang_gui_tooltip(gui, "Back to the preset as it is saved");
+    ang_gui_text_dim(gui, "%s", document->edited ? "changed" : "as saved");
+}
+
+static void rendering(ang_viewer *viewer) {
+    ang_gui *gui = viewer->gui;
+    ang_document *document = &viewer->document;
+    const char *unit = viewer->study.hounsfield ? "%.0f HU" : "%.0f";
+    ang_gui_heading(gui, "RENDERING");
+    static const char *const modes[] = {"Volume rendering", "Maximum (MIP)", "Minimum (MinIP)", "Mean", "Surface"};
+    int mode = (int)document->mode;
+    ang_gui_label(gui, "Mode");
+    if (ang_gui_choice(gui, "##mode", modes, 5, &mode, 0)) document->mode = (ang_mode)mode;
+    if (document->mode == ANG_MODE_DVR) {
+        bool shaded = document->shading == ANG_SHADING_PHONG;
+        ang_gui_label(gui, "Shading");
+        if (ang_gui_checkbox(gui, "Phong##shading", &shaded))
+            document->shading = shaded ? ANG_SHADING_PHONG : ANG_SHADING_NONE;
+    } else if (document->mode == ANG_MODE_ISO) {
+        ang_gui_label(gui, "Surface at");
+        ang_gui_number(gui, "##iso", &document->iso_hu, 2, -1e5, 1e5, unit, 0);
+    } else {
+        ang_gui_label(gui, "Window");
+        ang_gui_text_dim(gui, "that of the slices");
+    }
+    const char *names[16] = {"auto"};
+    int indices[16] = {0}, count = 1, chosen = 0;
+    for (int i = 0; ang_methods()[i] && count < 16; i++) {
+        /* The reference takes minutes. */
+        if (!ang_methods()[i]->needs_gl) continue;
+        names[count] = ang_methods()[i]->name;
+        indices[count++] = i + 1;
+    }
+    for (int i = 0; i < count; i++)
+        if (indices[i] == viewer->volume.choice) chosen = i;
+    ang_gui_label(gui, "Method");
+    if (ang_gui_choice(gui, "##method", names, count, &chosen, 0)) ang_volume_set_method(viewer, indices[chosen]);
+    if (viewer->volume.method) ang_gui_tooltip(gui, viewer->volume.method->title);
+}
+
+static void slices(ang_viewer *viewer) {
+    ang_gui *gui = viewer->gui;
+    ang_document *document = &viewer->document;
+    const char *unit = viewer->study.hounsfield ? "%.0f HU" : "%.0f";
+    double low = -1e5, high = 1e5;
+    ang_gui_heading(gui, "SLICES");
+    ang_gui_label(gui, "Window");
+    double half = (ang_gui_room(gui) - ang_gui_px(gui, 8)) / 2;
+    char format[32];
+    snprintf(format, sizeof format, "W %s", unit);
+    ang_gui_number(gui, "##width", &document->window_width, 2, viewer->study.volume->slope, high, format, half);
+    ang_gui_tooltip(
+        gui, "Width of the window: drag, or double-click and type. Also by dragging in a slice, and keys 1 to 9.");
+    ang_gui_same_line(gui);
+    snprintf(format, sizeof format, "C %s", unit);
+    ang_gui_number(gui, "##centre", &document->window_centre, 2, low, high, format, half);
+    ang_gui_tooltip(gui, "Centre of the window");
+    ang_gui_label(gui, "Slab");
+    ang_gui_number(gui, "##slab", &document->slab_mm, 0.1, 0, 200, "%.1f mm", half);
+    ang_gui_tooltip(gui, "Thickness of what a slice shows; 0: the plane alone. Keys [ and ].");
+    ang_gui_same_line(gui);
+    static const char *const slabs[] = {"Mean", "MIP", "MinIP"};
+    int slab = (int)document->slab;
+    if (ang_gui_choice(gui, "##slab-mode", slabs, 3, &slab, half)) document->slab = (ang_slab)slab;
+}
+
+static void series(ang_viewer *viewer) {
+    ang_gui *gui = viewer->gui;
+    const ang_study *study = &viewer->study;
+    const int *dims = study->volume->dims;
+    ang_gui_heading(gui, "SERIES");
+    ang_gui_text(gui, "%s", study->label);
+    ang_gui_text_dim(gui, "%d x %d x %d voxels", dims[0], dims[1], dims[2]);
+    ang_gui_text_dim(gui, "%.3g x %.3g x %.3g mm", ang_volume_spacing(study->volume, 0),
+                     ang_volume_spacing(study->volume, 1), ang_volume_spacing(study->volume, 2));
+    if (study->notes.count == 0) return;
+    char text[80];
+    if (study->warnings > 0)
+        snprintf(text, sizeof text, "%d warning%s on loading", study->warnings, ang_plural(study->warnings));
+    else
+        snprintf(text, sizeof text, "What loading assumed (%zu)", study->notes.count);
+    if (ang_gui_button(gui, text, ang_gui_room(gui), true)) viewer->notes = true;
+}
+
+void ang_panel(ang_viewer *viewer, ang_rect rect) {
+    ang_gui_area_begin(viewer->gui, "panel", rect, true);
+    if (viewer->ready) {
+        presets(viewer);
+        ang_transfer_editor(viewer);
+        rendering(viewer);
+        slices(viewer);
+        series(viewer);
+    }
+    ang_gui_area_end(viewer->gui);
+}

@@ -1,0 +1,214 @@
+/* A pane with a slice: its picture, and what the hands do on it. */
+#include "core/base/memory.h"
+#include "ui/viewer_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double least_window = 1;
+
+/* Grey of a value under the document's window, 0..255; outside the volume black. */
+static uint8_t grey_of(double hu, double centre, double width) {
+    if (isnan(hu)) return 0;
+    double grey = (hu - centre) / width + 0.5;
+    return grey <= 0 ? 0 : grey >= 1 ? 255 : (uint8_t)(255 * grey + 0.5);
+}
+
+static bool make_room(ang_slice_picture *picture, size_t pixels, ang_error *err) {
+    if (picture->room >= pixels) return true;
+    free(picture->hu);
+    free(picture->rgba);
+    picture->room = 0;
+    picture->hu = ang_alloc(pixels, sizeof *picture->hu, "a slice", err);
+    picture->rgba = ang_alloc(pixels, 4, "a slice", err);
+    if (!picture->hu || !picture->rgba) return false;
+    picture->room = pixels;
+    return true;
+}
+
+/* Brings values, greys and texture up to date, each only where it has to be. */
+static bool fill(ang_viewer *viewer, ang_slice_picture *picture, const ang_reslice_plane *plane, ang_error *err) {
+    const ang_document *document = &viewer->document;
+    size_t pixels = (size_t)plane->width * (size_t)plane->height;
+    bool moved = !picture->filled || memcmp(&picture->plane, plane, sizeof *plane) != 0;
+    bool windowed = picture->centre < document->window_centre || picture->centre > document->window_centre ||
+                    picture->width < document->window_width || picture->width > document->window_width;
+    if (!moved && !windowed) return true;
+    picture->filled = false;
+    if (!make_room(picture, pixels, err)) return false;
+    if (moved && !ang_reslice(viewer->study.volume, plane, viewer->host->threads, picture->hu, err)) return false;
+    for (size_t i = 0; i < pixels; i++) {
+        uint8_t grey = grey_of((double)picture->hu[i], document->window_centre, document->window_width);
+        memset(picture->rgba + 4 * i, grey, 3);
+        picture->rgba[4 * i + 3] = 255;
+    }
+    if (!ang_painter_picture(viewer->painter, &picture->texture, plane->width, plane->height, picture->rgba, false,
+                             err))
+        return false;
+    picture->plane = *plane;
+    picture->centre = document->window_centre;
+    picture->width = document->window_width;
+    picture->filled = true;
+    return true;
+}
+
+void ang_slice_picture_clear(ang_viewer *viewer, ang_slice_picture *picture) {
+    ang_painter_forget(viewer->painter, &picture->texture);
+    free(picture->hu);
+    free(picture->rgba);
+    *picture = (ang_slice_picture){.view = ang_slice_view_default};
+}
+
+bool ang_slice_image(ang_viewer *viewer, ang_orientation orientation, ang_image *image, ang_error *err) {
+    const ang_slice_picture *picture = &viewer->slice[orientation];
+    if (!picture->filled)
+        return ang_fail(err, ANG_USAGE, "the %s slice has not been drawn yet", ang_orientation_name(orientation));
+    if (!ang_image_create(image, picture->plane.width, picture->plane.height, err)) return false;
+    size_t values = 4 * (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < values; i++) image->rgba[i] = (float)picture->rgba[i] / 255;
+    return true;
+}
+
+void ang_slice_scroll(ang_viewer *viewer, ang_orientation orientation, int slices) {
+    const ang_slice_range *range = &viewer->range[orientation];
+    int index = ang_slice_index(range, viewer->crosshair);
+    viewer->crosshair = ang_slice_place(range, viewer->crosshair, index + slices);
+}
+
+/* To the right widens the window, up brightens; Shift: ten times finer. */
+static void drag_window(ang_viewer *viewer, const ang_canvas *canvas) {
+    ang_document *document = &viewer->document;
+    double speed =
+        fmax(viewer->gesture.before.window_width / 300, viewer->study.volume->slope / 4) / viewer->input.scale;
+    if (canvas->modifiers & ANG_MOD_SHIFT) speed /= 10;
+    document->window_width =
+        fmax(document->window_width + canvas->dx * speed, least_window * viewer->study.volume->slope);
+    document->window_centre += canvas->dy * speed;
+}
+
+static void drag(ang_viewer *viewer, ang_orientation orientation, const ang_canvas *canvas,
+                 const ang_slice_frame *frame) {
+    ang_slice_view *view = &viewer->slice[orientation].view;
+    bool panning =
+        canvas->held == ANG_BUTTON_MIDDLE ||
+        (canvas->held == ANG_BUTTON_LEFT && (viewer->tool == ANG_TOOL_PAN || viewer->input.key[ANG_KEY_SPACE]));
+    if (panning) {
+        view->pan_mm[0] -= canvas->dx * frame->mm_per_pixel;
+        view->pan_mm[1] -= canvas->dy * frame->mm_per_pixel;
+    } else if (canvas->held == ANG_BUTTON_RIGHT) {
+        ang_slice_zoom(view, frame, canvas->start_x, canvas->start_y, exp(-canvas->dy / (150 * viewer->input.scale)));
+    } else if (viewer->tool == ANG_TOOL_CROSSHAIR) {
+        ang_viewer_point_at(viewer, ang_slice_at(frame, canvas->x, canvas->y));
+    } else if (viewer->tool == ANG_TOOL_WINDOW) {
+        drag_window(viewer, canvas);
+    }
+}
+
+static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame) {
+    ang_orientation orientation = (ang_orientation)pane;
+    ang_gesture *gesture = &viewer->gesture;
+    if (canvas->pressed)
+        *gesture = (ang_gesture){.pane = (int)pane,
+                                 .before = viewer->document,
+                                 .crosshair = viewer->crosshair,
+                                 .view = viewer->slice[orientation].view};
+    if (canvas->double_clicked) {
+        viewer->maximised = viewer->maximised == (int)pane ? -1 : (int)pane;
+        gesture->cancelled = true;
+        return;
+    }
+    bool ours = gesture->pane == (int)pane && !gesture->cancelled;
+    if (ours && canvas->held >= 0 && (canvas->dx != 0 || canvas->dy != 0 || canvas->pressed))
+        drag(viewer, orientation, canvas, frame);
+    if (ours && canvas->clicked && canvas->released == ANG_BUTTON_LEFT && viewer->tool != ANG_TOOL_PAN)
+        ang_viewer_point_at(viewer, ang_slice_at(frame, canvas->start_x, canvas->start_y));
+    if (canvas->wheel == 0) return;
+    if (canvas->modifiers & ANG_MOD_CONTROL)
+        ang_slice_zoom(&viewer->slice[orientation].view, frame, canvas->x, canvas->y, pow(1.15, canvas->wheel));
+    else
+        ang_slice_scroll(viewer, orientation, (int)(canvas->wheel > 0 ? ceil(canvas->wheel) : floor(canvas->wheel)));
+}
+
+/* Lines where the other two slices cut this one, open around the place itself. */
+static void draw_crosshair(ang_viewer *viewer, ang_pane pane, ang_rect rect, const ang_slice_frame *frame) {
+    static const ang_pane upright[] = {ANG_PANE_SAGITTAL, ANG_PANE_SAGITTAL, ANG_PANE_CORONAL};
+    static const ang_pane level[] = {ANG_PANE_CORONAL, ANG_PANE_AXIAL, ANG_PANE_AXIAL};
+    double x, y, gap = ang_gui_px(viewer->gui, 14), thick = fmax(ang_gui_px(viewer->gui, 1), 1);
+    ang_slice_locate(frame, viewer->crosshair, &x, &y);
+    x = rect.x + floor(x) + 0.5;
+    y = rect.y + floor(y) + 0.5;
+    /* The letters at the edges stay free. */
+    double edge = ang_gui_px(viewer->gui, 26);
+    double left = rect.x + edge, right = rect.x + rect.width - edge;
+    double top = rect.y + edge, bottom = rect.y + rect.height - edge;
+    ang_ink vertical = ang_pane_ink(upright[pane], 170), horizontal = ang_pane_ink(level[pane], 170);
+    if (y - gap > top) ang_gui_line(viewer->gui, x, top, x, fmin(y - gap, bottom), vertical, thick);
+    if (y + gap < bottom) ang_gui_line(viewer->gui, x, fmax(y + gap, top), x, bottom, vertical, thick);
+    if (x - gap > left) ang_gui_line(viewer->gui, left, y, fmin(x - gap, right), y, horizontal, thick);
+    if (x + gap < right) ang_gui_line(viewer->gui, fmax(x + gap, left), y, right, y, horizontal, thick);
+}
+
+static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
+    static const char letters[] = "APL";
+    static const char *const names[] = {"Axial", "Coronal", "Sagittal"};
+    const ang_document *document = &viewer->document;
+    const ang_slice_range *range = &viewer->range[pane];
+    const char *unit = viewer->study.hounsfield ? " HU" : "";
+    char text[200];
+    ang_pane_corner(viewer, rect, 0, 0, 0, names[pane]);
+    ang_pane_corner(viewer, rect, 1, 0, 0, viewer->study.label);
+    double along = ang_vec3_dot(viewer->crosshair, range->normal);
+    /* Towards the head, the back and the left is positive. */
+    snprintf(text, sizeof text, "%d / %d   %c %.1f mm", ang_slice_index(range, viewer->crosshair) + 1, range->count,
+             pane == ANG_PANE_AXIAL ? 'H' : letters[pane], along);
+    ang_pane_corner(viewer, rect, 0, 1, 0, text);
+    if (document->slab_mm > 0) {
+        snprintf(text, sizeof text, "slab %.1f mm, %s", document->slab_mm, ang_slab_name(document->slab));
+        ang_pane_corner(viewer, rect, 0, 1, 1, text);
+    }
+    snprintf(text, sizeof text, "C %.0f  W %.0f%s", document->window_centre, document->window_width, unit);
+    ang_pane_corner(viewer, rect, 1, 1, 0, text);
+    snprintf(text, sizeof text, "zoom %.2f", viewer->slice[pane].view.zoom);
+    ang_pane_corner(viewer, rect, 1, 1, 1, text);
+}
+
+static void hover(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame) {
+    if (!canvas->hovered && canvas->held < 0) return;
+    viewer->hovered = pane;
+    viewer->hovered_mm = ang_slice_at(frame, canvas->x, canvas->y);
+    const ang_slice_picture *picture = &viewer->slice[pane];
+    int x = (int)floor(canvas->x), y = (int)floor(canvas->y);
+    bool inside = picture->filled && x >= 0 && y >= 0 && x < picture->plane.width && y < picture->plane.height;
+    /* What the pixel shows, the slab included. */
+    viewer->hovered_hu = inside ? (double)picture->hu[(size_t)y * (size_t)picture->plane.width + (size_t)x] : NAN;
+    ang_gui_cursor(viewer->gui, ANG_CURSOR_CROSS);
+}
+
+void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
+    ang_orientation orientation = (ang_orientation)pane;
+    ang_slice_picture *picture = &viewer->slice[orientation];
+    ang_canvas canvas;
+    int width = (int)rect.width, height = (int)rect.height;
+    ang_gui_pane_begin(viewer->gui, ang_orientation_name(orientation), rect, &canvas);
+    const ang_volume *volume = viewer->study.volume;
+    ang_slice_frame frame = ang_slice_frame_make(volume, orientation, &picture->view, viewer->crosshair, width, height);
+    handle(viewer, pane, &canvas, &frame);
+    frame = ang_slice_frame_make(volume, orientation, &picture->view, viewer->crosshair, width, height);
+    ang_reslice_plane plane = ang_slice_plane(&frame, viewer->document.slab_mm, viewer->document.slab);
+    ang_error err = {0};
+    if (fill(viewer, picture, &plane, &err))
+        ang_gui_picture(viewer->gui, &picture->texture, rect);
+    else
+        ang_viewer_say(viewer, true, "%s", err.message);
+    hover(viewer, pane, &canvas, &frame);
+    if (viewer->crosshair_shown) draw_crosshair(viewer, pane, rect, &frame);
+    ang_pane_letters(viewer, rect, frame.axes.right, frame.axes.down);
+    if (viewer->corner_text) {
+        write_corners(viewer, pane, rect);
+        ang_pane_bar(viewer, rect, frame.mm_per_pixel, false);
+    }
+    ang_pane_frame(viewer, rect, pane);
+    ang_gui_pane_end(viewer->gui);
+}

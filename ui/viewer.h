@@ -1,0 +1,83 @@
+/* The viewer: a window with three slices and a volume rendering of one series. Reads and writes files only through its
+ * host. */
+#ifndef ANG_UI_VIEWER_H
+#define ANG_UI_VIEWER_H
+
+#include "core/base/error.h"
+#include "core/base/notes.h"
+#include "core/base/progress.h"
+#include "core/render/method.h"
+#include "core/scene/image.h"
+#include "core/transfer/preset.h"
+#include "core/volume/volume.h"
+#include "ui/document.h"
+#include "ui/gui.h"
+#include "ui/slice_geometry.h"
+
+/* What has been loaded. Owned by the host until `release`. */
+typedef struct ang_study {
+    ang_volume *volume;
+    bool hounsfield;                    /* values are HU; else plain numbers */
+    double window_centre, window_width; /* the file's; NaN where it has none */
+    char label[160];                    /* shown on the panes: modality, series */
+    ang_notes notes;                    /* warnings and assumptions, a sentence each */
+    int warnings;                       /* how many of the notes, from the first, are warnings */
+    void *handle;                       /* the host's */
+} ang_study;
+
+typedef enum ang_pane { ANG_PANE_AXIAL, ANG_PANE_CORONAL, ANG_PANE_SAGITTAL, ANG_PANE_VOLUME, ANG_PANES } ang_pane;
+
+/* What the viewer shows, for tests and for those who repeat a picture. Borrows. */
+typedef struct ang_viewer_state {
+    const char *phase; /* "empty", "loading", "ready", "failed" */
+    const ang_study *study;
+    const ang_document *document;
+    ang_vec3 crosshair; /* LPS mm */
+    struct {
+        int index, count;
+        double zoom, pan_mm[2];
+    } slice[ANG_ORIENTATIONS];
+    ang_pane hovered;         /* ANG_PANES: none */
+    double hovered_hu;        /* NaN: none */
+    int maximised;            /* ang_pane; -1: none */
+    ang_rect pane[ANG_PANES]; /* in the window; of no size: not shown */
+    const char *tool;
+    const char *method;
+    int size[2]; /* of the 3D picture, pixels */
+    bool refined;
+    double frame_ms;   /* the last 3D picture's */
+    int undo, redo;    /* 1 where possible */
+    const char *saved; /* the last picture written; NULL: none */
+    int frames;        /* windows drawn so far */
+} ang_viewer_state;
+
+/* What the viewer asks of the program. */
+typedef struct ang_viewer_host {
+    void *context;
+    /* Reads `path`; on a thread of its own. False as ang_load. */
+    bool (*load)(void *context, const char *path, ang_study *study, const ang_progress *progress, ang_error *err);
+    void (*release)(void *context, ang_study *study);
+    /* A preset for a study whose values are no Hounsfield units, which the viewer frees; or NULL and an error. */
+    ang_preset *(*preset_for)(void *context, const ang_study *study, ang_error *err);
+    /* Writes a picture to a new file, whose path goes to `path`. */
+    bool (*save_picture)(void *context, const char *what, const ang_image *image, char *path, size_t size,
+                         ang_error *err);
+    /* Told after each frame after which something differs; NULL: not wanted. */
+    void (*shown)(void *context, const ang_viewer_state *state);
+    const ang_preset *const *presets; /* NULL at the end; outlive the viewer */
+    const char *font;                 /* TrueType file; NULL: none found */
+    const char *version;
+    int threads; /* 0: all */
+} ang_viewer_host;
+
+typedef struct ang_viewer_options {
+    const char *path;   /* to open; NULL: none */
+    const char *preset; /* name of the one to begin with; NULL: as suits */
+    int width, height;  /* of the window, pixels; 0: as suits the screen */
+} ang_viewer_options;
+
+/* Opens the window, works until it is closed. False with ANG_GL where no window can be opened, or what went wrong in it
+ * and could not be shown. From the program's first thread. */
+bool ang_viewer_run(const ang_viewer_host *host, const ang_viewer_options *options, ang_error *err);
+
+#endif

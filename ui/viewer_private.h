@@ -1,0 +1,155 @@
+/* The viewer's state and its parts; only ui/ includes it. */
+#ifndef ANG_UI_VIEWER_PRIVATE_H
+#define ANG_UI_VIEWER_PRIVATE_H
+
+#include "core/volume/histogram.h"
+#include "ui/gui.h"
+#include "ui/loading.h"
+#include "ui/viewer.h"
+
+/* Colours of the panes (3D Slicer's), and what is written on pictures. */
+#define ANG_INK_TEXT   ANG_INK(224, 224, 224, 255)
+#define ANG_INK_DIM    ANG_INK(150, 150, 150, 255)
+#define ANG_INK_ACCENT ANG_INK(69, 153, 219, 255)
+#define ANG_INK_BORDER ANG_INK(56, 56, 56, 255)
+ang_ink ang_pane_ink(ang_pane pane, unsigned alpha);
+
+typedef enum ang_tool { ANG_TOOL_WINDOW, ANG_TOOL_CROSSHAIR, ANG_TOOL_PAN, ANG_TOOLS } ang_tool;
+const char *ang_tool_name(ang_tool tool);
+
+/* A slice's picture, kept until what it shows changes. */
+typedef struct ang_slice_picture {
+    ang_slice_view view;
+    ang_reslice_plane plane; /* of `hu` */
+    double centre, width;    /* of the texture */
+    float *hu;
+    uint8_t *rgba;
+    size_t room; /* pixels */
+    bool filled;
+    ang_paint_texture texture;
+} ang_slice_picture;
+
+/* The volume rendering's. */
+typedef struct ang_volume_picture {
+    const ang_method *method; /* of `renderer` */
+    ang_renderer *renderer;
+    int choice; /* 0: auto, else 1 + index into ang_methods */
+    ang_image image;
+    ang_scene scene;        /* that `image` shows, without what it borrows */
+    ang_transfer *transfer; /* of `scene` */
+    ang_document document;  /* that `image` shows */
+    int size[2];            /* of the pane that `image` was made for */
+    bool shown, refined;    /* there is an image; it is as fine as the pane */
+    double scale;           /* of a coarse picture's sides, 0..1; 0: not known yet */
+    bool warm;              /* a picture has been made by `renderer` */
+    double frame_ms;        /* of the last picture */
+    double asked_seconds;   /* when what it shows last changed */
+    uint8_t *rgba;
+    ang_paint_texture texture;
+    char failure[1024]; /* why there is no picture; empty: there is */
+    bool software;
+} ang_volume_picture;
+
+/* What a drag began with. */
+typedef struct ang_gesture {
+    int pane; /* ang_pane, -1: none */
+    ang_document before;
+    ang_vec3 crosshair;
+    ang_slice_view view;
+    bool bends; /* the preset is shifted and stretched */
+    bool cancelled;
+} ang_gesture;
+
+typedef struct ang_viewer {
+    const ang_viewer_host *host;
+    ang_window *window;
+    ang_painter *painter;
+    ang_gui *gui;
+    ang_input input;
+    ang_loading loading;
+    ang_study study;
+    bool ready;         /* there is a study */
+    char failure[1100]; /* what is shown instead of a study or of what was asked for; empty: nothing */
+
+    ang_document document;
+    ang_history history;
+    ang_preset *own_preset; /* of the host for this study; NULL: none */
+    ang_vec3 crosshair;
+    ang_slice_range range[ANG_ORIENTATIONS];
+    ang_slice_picture slice[ANG_ORIENTATIONS];
+    ang_volume_picture volume;
+    ang_tool tool;
+    int maximised; /* ang_pane, -1: none */
+    ang_rect pane[ANG_PANES];
+    ang_pane hovered;
+    double hovered_hu; /* NaN: none */
+    ang_vec3 hovered_mm;
+    ang_gesture gesture;
+
+    bool help, notes, opening, corner_text, crosshair_shown;
+    char typed_path[1024];
+    bool save_wanted; /* a picture of the pane, when refined */
+    ang_pane save_pane;
+    bool save_window;
+    char saved[1024];
+    char message[1100]; /* on the status line */
+    bool message_bad;
+    double message_until;           /* seconds */
+    int point;                      /* selected in the editor, -1: none */
+    double editor_low, editor_high; /* HU shown */
+    ang_histogram *histogram;       /* NULL: none */
+    bool typing;                    /* a text field has the keyboard */
+    int redraws;                    /* frames still to draw before sleeping */
+    int frames;
+} ang_viewer;
+
+/* viewer.c */
+extern const ang_view ang_viewer_first_view;
+void ang_viewer_say(ang_viewer *viewer, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void ang_viewer_open(ang_viewer *viewer, const char *path);
+void ang_viewer_choose_preset(ang_viewer *viewer, const ang_preset *preset);
+/* The crosshair to a place, kept within the volume and on slices. */
+void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm);
+/* The window that the file asks for, else one that suits. */
+void ang_viewer_file_window(const ang_viewer *viewer, double *centre, double *width);
+double ang_viewer_hu_at(const ang_viewer *viewer, ang_vec3 mm); /* NaN outside */
+
+/* slice_pane.c */
+void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect);
+void ang_slice_scroll(ang_viewer *viewer, ang_orientation orientation, int slices);
+void ang_slice_picture_clear(ang_viewer *viewer, ang_slice_picture *picture);
+/* The slice as a picture to be written. */
+bool ang_slice_image(ang_viewer *viewer, ang_orientation orientation, ang_image *image, ang_error *err);
+
+/* volume_pane.c, volume_picture.c */
+void ang_volume_pane(ang_viewer *viewer, ang_rect rect);
+/* The scene of the document for a pane of this size; borrows `transfer`. */
+ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_transfer *transfer, int width, int height);
+/* Draws a coarse picture where what it should show has changed; or, with `refine`, the fine one, until input comes. */
+void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine);
+/* Seconds until the fine picture should be begun; infinite where there is nothing to refine. */
+double ang_volume_refine_in(const ang_viewer *viewer);
+void ang_volume_picture_clear(ang_viewer *viewer);
+void ang_volume_set_method(ang_viewer *viewer, int choice);
+/* The first place along a pixel's ray that shows; false where there is none. */
+bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm);
+
+/* overlay.c */
+void ang_pane_letters(ang_viewer *viewer, ang_rect rect, ang_vec3 right, ang_vec3 down);
+void ang_pane_bar(ang_viewer *viewer, ang_rect rect, double mm_per_pixel, bool at_centre);
+void ang_pane_corner(ang_viewer *viewer, ang_rect rect, int right, int bottom, int line, const char *text);
+/* The pane's border, with its letter. */
+void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane);
+void ang_status_line(ang_viewer *viewer, ang_rect rect);
+
+/* panel.c, transfer_editor.c */
+void ang_panel(ang_viewer *viewer, ang_rect rect);
+void ang_transfer_editor(ang_viewer *viewer);
+void ang_transfer_editor_start(ang_viewer *viewer);
+
+/* actions.c */
+void ang_actions_keys(ang_viewer *viewer);
+double ang_actions_menus(ang_viewer *viewer); /* the bar's height */
+void ang_actions_help(ang_viewer *viewer);
+
+#endif

@@ -1,0 +1,122 @@
+/* The pane with the volume rendering, and what the hands do on it. */
+#include "core/scene/annotation.h"
+#include "ui/viewer_private.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double least_zoom = 0.1, greatest_zoom = 100;
+
+/* Millimetres of a pixel at the depth of the volume's centre. */
+static double scale_of(const ang_viewer *viewer, ang_rect rect) {
+    ang_scene scene = ang_volume_scene(viewer, NULL, (int)rect.width, (int)rect.height);
+    return ang_annotation_make(&scene, NULL).mm_per_pixel;
+}
+
+static void zoom(ang_viewer *viewer, ang_rect rect, double x, double y, double factor) {
+    ang_view *view = &viewer->document.view;
+    double mm = scale_of(viewer, rect), wanted = fmin(fmax(view->zoom * factor, least_zoom), greatest_zoom);
+    /* What lies under the pointer at the depth of the centre stays there. */
+    double kept = 1 - view->zoom / wanted;
+    view->pan_mm[0] += (x - rect.width / 2) * mm * kept;
+    view->pan_mm[1] -= (y - rect.height / 2) * mm * kept;
+    view->zoom = wanted;
+}
+
+/* As 3D Slicer: up and down shift, across stretches. */
+static void bend(ang_viewer *viewer, const ang_canvas *canvas) {
+    const ang_document *before = &viewer->gesture.before;
+    double low = before->points[0].hu, high = before->points[before->count - 1].hu;
+    double speed = fmax(high - low, 1) / 2000 / viewer->input.scale;
+    double shift = -(canvas->y - canvas->start_y) * speed;
+    double stretch = exp((canvas->x - canvas->start_x) / (300 * viewer->input.scale));
+    ang_document_bend(&viewer->document, before, shift, stretch);
+}
+
+static void drag(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
+    ang_view *view = &viewer->document.view;
+    bool panning =
+        canvas->held == ANG_BUTTON_MIDDLE ||
+        (canvas->held == ANG_BUTTON_LEFT && (viewer->input.key[ANG_KEY_SPACE] || viewer->tool == ANG_TOOL_PAN));
+    if (panning) {
+        double mm = scale_of(viewer, rect);
+        view->pan_mm[0] -= canvas->dx * mm;
+        view->pan_mm[1] += canvas->dy * mm;
+    } else if (canvas->held == ANG_BUTTON_RIGHT) {
+        zoom(viewer, rect, canvas->start_x, canvas->start_y, exp(-canvas->dy / (150 * viewer->input.scale)));
+    } else if (viewer->gesture.bends) {
+        bend(viewer, canvas);
+    } else {
+        double degrees = 180 / fmin(rect.width, rect.height);
+        ang_view_turn(view, canvas->dx * degrees, canvas->dy * degrees);
+    }
+}
+
+static void handle(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
+    ang_gesture *gesture = &viewer->gesture;
+    if (canvas->pressed)
+        *gesture = (ang_gesture){.pane = ANG_PANE_VOLUME,
+                                 .before = viewer->document,
+                                 .crosshair = viewer->crosshair,
+                                 .bends = (canvas->modifiers & ANG_MOD_SHIFT) != 0};
+    if (canvas->double_clicked) {
+        viewer->maximised = viewer->maximised == ANG_PANE_VOLUME ? -1 : ANG_PANE_VOLUME;
+        gesture->cancelled = true;
+        return;
+    }
+    bool ours = gesture->pane == ANG_PANE_VOLUME && !gesture->cancelled;
+    if (ours && canvas->held >= 0 && (canvas->dx != 0 || canvas->dy != 0)) drag(viewer, canvas, rect);
+    ang_vec3 mm;
+    bool picks = ours && canvas->clicked && canvas->released == ANG_BUTTON_LEFT && !gesture->bends;
+    if (picks && ang_volume_pick(viewer, canvas->start_x, canvas->start_y, &mm)) ang_viewer_point_at(viewer, mm);
+    if (canvas->wheel != 0) zoom(viewer, rect, canvas->x, canvas->y, pow(1.15, canvas->wheel));
+}
+
+static void write_corners(ang_viewer *viewer, ang_rect rect) {
+    const ang_document *document = &viewer->document;
+    const ang_volume_picture *volume = &viewer->volume;
+    const char *unit = viewer->study.hounsfield ? " HU" : "";
+    char text[200];
+    ang_pane_corner(viewer, rect, 0, 0, 0, "Volume");
+    ang_pane_corner(viewer, rect, 1, 0, 0, viewer->study.label);
+    bool bent = document->shift_hu != 0 || document->stretch < 1 || document->stretch > 1;
+    snprintf(text, sizeof text, "%s%s, %s", document->preset, document->edited && !bent ? " (changed)" : "",
+             ang_mode_name(document->mode));
+    ang_pane_corner(viewer, rect, 0, 1, 0, text);
+    if (bent) {
+        snprintf(text, sizeof text, "shift %+.0f%s, stretch %.2f", document->shift_hu, unit, document->stretch);
+        ang_pane_corner(viewer, rect, 0, 1, 1, text);
+    }
+    if (document->mode == ANG_MODE_DVR)
+        snprintf(text, sizeof text, "zoom %.2f", document->view.zoom);
+    else if (document->mode == ANG_MODE_ISO)
+        snprintf(text, sizeof text, "surface %.0f%s  zoom %.2f", document->iso_hu, unit, document->view.zoom);
+    else
+        snprintf(text, sizeof text, "C %.0f  W %.0f%s  zoom %.2f", document->window_centre, document->window_width,
+                 unit, document->view.zoom);
+    ang_pane_corner(viewer, rect, 1, 1, 0, text);
+    ang_pane_corner(viewer, rect, 1, 1, 1, volume->refined ? "" : "coarse");
+}
+
+void ang_volume_pane(ang_viewer *viewer, ang_rect rect) {
+    ang_canvas canvas;
+    ang_gui_pane_begin(viewer->gui, "volume", rect, &canvas);
+    handle(viewer, &canvas, rect);
+    ang_volume_update(viewer, (int)rect.width, (int)rect.height, false);
+    if (canvas.hovered || (canvas.held >= 0 && viewer->gesture.pane == ANG_PANE_VOLUME))
+        viewer->hovered = ANG_PANE_VOLUME;
+    if (viewer->volume.failure[0])
+        ang_gui_write(viewer->gui, rect.x + rect.width / 2, rect.y + rect.height / 2 - ang_gui_px(viewer->gui, 32), 0.5,
+                      true, false, ANG_INK_TEXT, viewer->volume.failure);
+    else
+        ang_gui_picture(viewer->gui, &viewer->volume.texture, rect);
+    ang_scene scene = ang_volume_scene(viewer, NULL, (int)rect.width, (int)rect.height);
+    ang_pane_letters(viewer, rect, scene.camera.right, ang_vec3_scale(scene.camera.up, -1));
+    if (viewer->corner_text) {
+        write_corners(viewer, rect);
+        ang_pane_bar(viewer, rect, ang_annotation_make(&scene, NULL).mm_per_pixel,
+                     scene.camera.projection == ANG_PERSPECTIVE);
+    }
+    ang_pane_frame(viewer, rect, ANG_PANE_VOLUME);
+    ang_gui_pane_end(viewer->gui);
+}

@@ -1,0 +1,215 @@
+/* The volume rendering's picture: coarse within a budget of time while things move, fine when they rest. */
+#include "core/base/clock.h"
+#include "core/base/memory.h"
+#include "core/scene/annotation.h"
+#include "ui/viewer_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double budget_ms_software = 100, budget_ms_gpu = 33;
+static const double coarse_step = 1; /* smallest spacings; half of that when fine */
+static const double least_scale = 1.0 / 6, first_scale_software = 0.4;
+static const double rest_seconds = 0.15; /* without a change, before the fine picture is begun */
+
+/* Whether two documents give the same rendering. */
+static bool same_rendering(const ang_document *a, const ang_document *b) {
+    ang_document as_b = *a;
+    memcpy(as_b.preset, b->preset, sizeof as_b.preset);
+    as_b.edited = b->edited;
+    as_b.shift_hu = b->shift_hu;
+    as_b.stretch = b->stretch;
+    as_b.slab = b->slab;
+    as_b.slab_mm = b->slab_mm;
+    if (a->mode == ANG_MODE_DVR || a->mode == ANG_MODE_ISO) {
+        as_b.window_centre = b->window_centre;
+        as_b.window_width = b->window_width;
+    }
+    if (a->mode != ANG_MODE_ISO) as_b.iso_hu = b->iso_hu;
+    return memcmp(&as_b, b, sizeof as_b) == 0;
+}
+
+ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_transfer *transfer, int width, int height) {
+    const ang_document *document = &viewer->document;
+    ang_scene scene = ang_scene_default(viewer->study.volume);
+    scene.width = width;
+    scene.height = height;
+    scene.camera = ang_camera_for(viewer->study.volume, &document->view);
+    scene.mode = document->mode;
+    scene.shading = document->shading;
+    scene.phong = document->phong;
+    scene.iso_hu = document->iso_hu;
+    scene.window_centre = document->window_centre;
+    scene.window_width = document->window_width;
+    scene.transfer = transfer;
+    return scene;
+}
+
+static void drop_renderer(ang_volume_picture *volume) {
+    if (volume->renderer) volume->method->destroy(volume->renderer);
+    volume->renderer = NULL;
+    volume->method = NULL;
+    volume->warm = false;
+}
+
+void ang_volume_picture_clear(ang_viewer *viewer) {
+    ang_volume_picture *volume = &viewer->volume;
+    int choice = volume->choice;
+    drop_renderer(volume);
+    ang_transfer_free(volume->transfer);
+    ang_image_clear(&volume->image);
+    free(volume->rgba);
+    ang_painter_forget(viewer->painter, &volume->texture);
+    *volume = (ang_volume_picture){.choice = choice};
+}
+
+void ang_volume_set_method(ang_viewer *viewer, int choice) {
+    ang_volume_picture *volume = &viewer->volume;
+    if (choice == volume->choice) return;
+    drop_renderer(volume);
+    volume->choice = choice;
+    volume->shown = false;
+}
+
+static bool make_renderer(ang_viewer *viewer, const ang_scene *scene, ang_error *err) {
+    ang_volume_picture *volume = &viewer->volume;
+    if (volume->renderer) return true;
+    ang_gl *gl = ang_window_gl(viewer->window);
+    const char *why;
+    volume->software = ang_gl_is_software(gl);
+    if (!(volume->scale > 0)) volume->scale = volume->software ? first_scale_software : 1;
+    volume->method = volume->choice > 0
+                         ? ang_methods()[volume->choice - 1]
+                         : ang_method_choose(gl, viewer->study.volume, scene, &ang_render_options_default, &why);
+    volume->renderer = volume->method->create(gl, viewer->study.volume, &ang_render_options_default, err);
+    return volume->renderer != NULL;
+}
+
+static bool going_on(void *context, const char *what, double fraction) {
+    (void)what;
+    (void)fraction;
+    ang_viewer *viewer = context;
+    return !ang_window_pending(viewer->window);
+}
+
+/* The picture over black, as 8 bit. */
+static bool show(ang_viewer *viewer, const ang_image *image, ang_error *err) {
+    ang_volume_picture *volume = &viewer->volume;
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    uint8_t *rgba = realloc(volume->rgba, 4 * pixels);
+    if (!rgba) return ang_fail(err, ANG_LIMIT, "no memory for a picture");
+    volume->rgba = rgba;
+    for (size_t i = 0; i < 4 * pixels; i++) {
+        float value = i % 4 == 3 ? 1 : image->rgba[i];
+        rgba[i] = (uint8_t)(255 * (value > 0 ? value < 1 ? value : 1 : 0) + 0.5f);
+    }
+    return ang_painter_picture(viewer->painter, &volume->texture, image->width, image->height, rgba, true, err);
+}
+
+/* Slower than the budget: fewer pixels the next time; much faster: more, in steps, so that it does not flicker. */
+static void adapt(ang_volume_picture *volume, double milliseconds) {
+    double budget = volume->software ? budget_ms_software : budget_ms_gpu;
+    if (milliseconds > budget)
+        volume->scale *= fmax(0.95 * sqrt(budget / milliseconds), 0.5);
+    else if (milliseconds < 0.5 * budget)
+        volume->scale *= fmin(sqrt(0.8 * budget / fmax(milliseconds, 0.1)), 1.3);
+    volume->scale = fmin(fmax(round(volume->scale * 24) / 24, least_scale), 1);
+}
+
+static bool draw(ang_viewer *viewer, ang_scene *scene, bool fine, ang_image *image, ang_error *err) {
+    ang_volume_picture *volume = &viewer->volume;
+    ang_render_options options = ang_render_options_default;
+    options.threads = viewer->host->threads;
+    if (!fine) options.step_voxels = coarse_step;
+    ang_progress progress = {going_on, viewer};
+    double start = ang_now_ms();
+    if (!make_renderer(viewer, scene, err) || !ang_image_create(image, scene->width, scene->height, err)) return false;
+    bool first = !volume->warm;
+    bool done = volume->method->render(volume->renderer, scene, &options, image, NULL, fine ? &progress : NULL, err) &&
+                show(viewer, image, err);
+    if (!done) return false;
+    volume->warm = true;
+    volume->frame_ms = ang_now_ms() - start;
+    /* The first picture makes textures and programs too: that says nothing of the next. */
+    if (!fine && !first) adapt(volume, volume->frame_ms);
+    return true;
+}
+
+static int scaled(int size, double scale) { return (int)fmax(round(size * scale), 1); }
+
+void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
+    ang_volume_picture *volume = &viewer->volume;
+    if (width < 1 || height < 1) return;
+    bool current = volume->shown && volume->size[0] == width && volume->size[1] == height &&
+                   same_rendering(&volume->document, &viewer->document);
+    if (current && (!refine || volume->refined)) return;
+    if (!current) volume->asked_seconds = ang_now_ms() / 1000;
+    ang_error err = {0};
+    ang_transfer *transfer = ang_document_transfer(&viewer->document, &err);
+    double scale = refine ? 1 : volume->scale > 0 ? volume->scale : first_scale_software;
+    ang_scene scene = ang_volume_scene(viewer, transfer, scaled(width, scale), scaled(height, scale));
+    ang_image image = {0};
+    bool done = transfer && draw(viewer, &scene, refine, &image, &err);
+    if (!done && err.code == ANG_INTERRUPTED) {
+        ang_image_clear(&image);
+        ang_transfer_free(transfer);
+        volume->asked_seconds = ang_now_ms() / 1000;
+        return;
+    }
+    ang_transfer_free(volume->transfer);
+    ang_image_clear(&volume->image);
+    volume->transfer = transfer;
+    volume->image = image;
+    volume->scene = scene;
+    volume->document = viewer->document;
+    volume->size[0] = width;
+    volume->size[1] = height;
+    volume->shown = true;
+    /* What failed is not tried again until something changes. */
+    volume->refined = refine || !done;
+    snprintf(volume->failure, sizeof volume->failure, "%s", done ? "" : err.message);
+}
+
+double ang_volume_refine_in(const ang_viewer *viewer) {
+    const ang_volume_picture *volume = &viewer->volume;
+    if (!volume->shown || volume->refined) return INFINITY;
+    return fmax(volume->asked_seconds + rest_seconds - ang_now_ms() / 1000, 0);
+}
+
+bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm) {
+    const ang_volume *volume = viewer->study.volume;
+    const ang_document *document = &viewer->document;
+    ang_volume_picture *picture = &viewer->volume;
+    ang_error err = {0};
+    ang_ray_frame frame;
+    ang_scene scene = ang_volume_scene(viewer, picture->transfer, picture->size[0], picture->size[1]);
+    if (!picture->transfer || !ang_ray_frame_make(volume, &scene, &frame, &err)) return false;
+    ang_ray ray = ang_ray_through(&frame, x, y);
+    double step = ang_volume_smallest_spacing(volume) / 2, through = 0, best = 0, chosen = NAN;
+    for (double t = ray.enter + step / 2; t < ray.leave; t += step) {
+        ang_vec3 at = ang_vec3_add(ang_vec3_along(ray.origin, ray.direction, t), frame.centre);
+        double hu = ang_volume_hu(volume, ang_volume_sample(volume, at));
+        if (document->mode == ANG_MODE_DVR) {
+            /* Where half of the light has been stopped, or the most, where less is. */
+            double more = ang_transfer_extinction(picture->transfer, hu) * step;
+            if (more > best) best = more, chosen = t;
+            through += more;
+            if (through < M_LN2) continue;
+            chosen = t;
+            break;
+        }
+        if (document->mode == ANG_MODE_ISO) {
+            if (hu < document->iso_hu) continue;
+            chosen = t;
+            break;
+        }
+        double value = document->mode == ANG_MODE_MINIP ? -hu : hu;
+        if (isnan(chosen) || value > best) best = value, chosen = t;
+    }
+    if (isnan(chosen)) return false;
+    ang_vec3 index = ang_vec3_add(ang_vec3_along(ray.origin, ray.direction, chosen), frame.centre);
+    *mm = ang_mat4_point(&volume->affine, index);
+    return true;
+}
