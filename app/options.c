@@ -71,7 +71,7 @@ static const option_spec table[] = {
         "displayed, mirrored"),
     REAL_OPTION("zoom", DRAWS, zoom, "X", 1e-3, 1e4, "1", NULL,
                 "magnification; at 1 all of the volume is inside the picture"),
-    TEXT_OPTION("pan", ANG_VERB_RENDER, pan, "X,Y", "0,0", "moves the camera to the right and up, in mm"),
+    TEXT_OPTION("pan", DRAWS, pan, "X,Y", "0,0", "moves the camera to the right and up, in mm"),
     CHOICE_OPTION("projection", projection, "perspective|parallel", "perspective", "projection"),
     REAL_OPTION("fov", DRAWS, fov, "DEG", 0.01, 179, "30", "degrees", "vertical field of view in perspective"),
     TEXT_OPTION("clip", DRAWS, clip, "x0,x1,y0,y1,z0,z1", NULL,
