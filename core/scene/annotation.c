@@ -107,7 +107,7 @@ ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_na
     return a;
 }
 
-/* Upwards, since a limit is stated. */
+/* Upwards: rather too much than too little. */
 static double two_figures(double value) {
     if (!(value > 0)) return value;
     double power = pow(10, floor(log10(value)) - 1);
@@ -117,7 +117,7 @@ static double two_figures(double value) {
 void ang_annotation_add_error(ang_annotation *annotation, double levels, double rms, double milliseconds) {
     char error[48] = "error not known";
     if (isfinite(levels))
-        snprintf(error, sizeof error, "error <= %.3g levels", two_figures(levels));
+        snprintf(error, sizeof error, "error about %.3g levels", two_figures(levels));
     else if (isfinite(rms))
         snprintf(error, sizeof error, "RMS error %.2g levels", two_figures(rms));
     snprintf(annotation->remark, sizeof annotation->remark, "%s, %.0f ms", error, milliseconds);

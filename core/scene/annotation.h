@@ -45,7 +45,7 @@ ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_na
 /* Only the labels of the scene's objects. */
 ang_annotation ang_annotation_of_objects(const ang_scene *scene);
 
-/* Makes the remark say how wrong the picture may be and how long it took: its largest error in levels, rounded up to
+/* Makes the remark say about how wrong the picture is and how long it took: its largest error in levels, rounded up to
  * two figures, or where that is NAN its RMS, or that neither is known. */
 void ang_annotation_add_error(ang_annotation *annotation, double levels, double rms, double milliseconds);
 

@@ -79,12 +79,17 @@ static void draw_bar(sheet *sheet, const ang_annotation *a, int small) {
     draw_text(sheet, right, line, label, small, 1);
 }
 
-/* At the left bottom, as much of it as goes beside the bottom letter; number 0 is the lowest. */
+/* Pixels that a line at the left bottom has beside the bottom letter, and above that beside the bar's label. */
+static int line_room(const sheet *sheet, int number) {
+    return sheet->width / 2 - sheet->margin + (number > 0 ? sheet->size : -2 * sheet->size);
+}
+
+/* As much of it as goes; number 0 is the lowest. */
 static void draw_line(sheet *sheet, const char *line, int small, int number) {
     char text[sizeof((ang_annotation *)0)->caption + 4];
     size_t length = strlen(line);
     memcpy(text, line, length + 1);
-    int width, top, bottom, room = sheet->width / 2 - sheet->margin - 2 * sheet->size;
+    int width, top, bottom, room = line_room(sheet, number);
     while (length > 0 && text_extent(sheet, text, small, &width, &top, &bottom) && width > room) {
         /* Whole UTF-8 characters only. */
         do length--;
@@ -93,6 +98,20 @@ static void draw_line(sheet *sheet, const char *line, int small, int number) {
     }
     int baseline = sheet->height - sheet->margin - number * (small + small / 4);
     if (length > 0) draw_text(sheet, sheet->margin, baseline, text, small, -1);
+}
+
+/* Above the caption; where there is no room for all, its parts go below one another. */
+static void draw_remark(sheet *sheet, const char *remark, int small) {
+    char first[sizeof((ang_annotation *)0)->remark];
+    int width, top, bottom;
+    const char *second = strstr(remark, ", ");
+    if (!second || !text_extent(sheet, remark, small, &width, &top, &bottom) || width <= line_room(sheet, 1)) {
+        draw_line(sheet, remark, small, 1);
+        return;
+    }
+    snprintf(first, sizeof first, "%.*s", (int)(second - remark), remark);
+    draw_line(sheet, first, small, 2);
+    draw_line(sheet, second + 2, small, 1);
 }
 
 static void draw_side_letters(sheet *sheet, const ang_annotation *a) {
@@ -197,7 +216,7 @@ bool ang_image_annotate(ang_image *image, const ang_annotation *annotation, ang_
             draw_end_letters(&sheet, annotation);
             draw_bar(&sheet, annotation, small);
             draw_line(&sheet, annotation->caption, small, 0);
-            draw_line(&sheet, annotation->remark, small, 1);
+            draw_remark(&sheet, annotation->remark, small);
         }
         blend(&sheet, annotation->dark_ink, image, rows);
     }

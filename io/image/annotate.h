@@ -7,8 +7,8 @@
 #include "core/scene/annotation.h"
 #include "core/scene/image.h"
 
-/* Writes letters at the middles of the four edges, the bar with its label at the bottom right, and the caption at the
- * bottom left onto `image`, white with a thin dark outline
+/* Writes letters at the middles of the four edges, the bar with its label at the bottom right, and the caption with
+ * the remark above it at the bottom left onto `image`, white with a thin dark outline
  * or the other way round. Drawn over the premultiplied picture before the background,
  * which gives the same as drawing over the finished one. Letters are height / 40 pixels high, at least 11; what has no
  * room is left out, and `warnings` says so. Measure errors before this, not after. Text needs OpenImageIO and the font

@@ -102,11 +102,11 @@ static void errors_are_rounded_up(void **state) {
     static const struct {
         double levels, rms, ms;
         const char *remark;
-    } cases[] = {{2.0101, 1, 223.7, "error <= 2.1 levels, 224 ms"},
-                 {2.1, 1, 9, "error <= 2.1 levels, 9 ms"},
-                 {0, 0, 12345, "error <= 0 levels, 12345 ms"},
-                 {0.01234, NAN, 1, "error <= 0.013 levels, 1 ms"},
-                 {254.2, 9, 1, "error <= 260 levels, 1 ms"},
+    } cases[] = {{2.0101, 1, 223.7, "error about 2.1 levels, 224 ms"},
+                 {2.1, 1, 9, "error about 2.1 levels, 9 ms"},
+                 {0, 0, 12345, "error about 0 levels, 12345 ms"},
+                 {0.01234, NAN, 1, "error about 0.013 levels, 1 ms"},
+                 {254.2, 9, 1, "error about 260 levels, 1 ms"},
                  {NAN, 0.301, 1, "RMS error 0.31 levels, 1 ms"},
                  {NAN, NAN, 1, "error not known, 1 ms"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -268,8 +268,12 @@ static void formats_round_as_they_say(void **state) {
 /* Letters, caption and bar, or none of them: a bar without its length says nothing. */
 static void annotations_are_whole_or_not_there(void **state) {
     (void)state;
-    ang_annotation annotation = {
-        .left = {"R"}, .bar_mm = 50, .bar_pixels = 40, .bar_label = "50 mm", .caption = "cta-head, dvr"};
+    ang_annotation annotation = {.left = {"R"},
+                                 .bar_mm = 50,
+                                 .bar_pixels = 40,
+                                 .bar_label = "50 mm",
+                                 .caption = "cta-head, dvr",
+                                 .remark = "error about 24 levels, 1234 ms"};
     ang_image image;
     ang_notes warnings = {0};
     ang_error err;
