@@ -37,7 +37,7 @@ static void add_run(FILE *out, const ang_report *report, const ang_report_run *r
                        error->flipped,        run->subset_error.rms,
                        run->median_ms,        run->least_ms,
                        run->most_ms,          run->frames,
-                       (double)run->samples,  (double)run->samples / (double)run->pixels,
+                       (double)run->samples,  run->samples_per_pixel,
                        run->passes,           run->step_mm};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) add_number(out, run->drawn ? values[i] : (double)NAN);
     fprintf(out, ",%d,%d,%d,%d", run->estimated, run->front[ANG_REPORT_MAX], run->front[ANG_REPORT_P999],
@@ -107,6 +107,7 @@ static cJSON *run_json(const ang_report_run *run) {
     cJSON_AddNumberToObject(time, "frames", run->frames);
     cJSON_AddBoolToObject(time, "estimated", run->estimated);
     cJSON_AddNumberToObject(out, "samples", (double)run->samples);
+    cJSON_AddNumberToObject(out, "samples_per_pixel", run->samples_per_pixel);
     cJSON_AddNumberToObject(out, "passes", run->passes);
     ang_json_add_number(out, "step_mm", run->step_mm > 0 ? run->step_mm : NAN);
     cJSON *front = cJSON_AddObjectToObject(out, "front");

@@ -29,11 +29,12 @@ static const char style[] =
     ".choice{font-size:15px;width:100%}.choice td,.choice th{padding:6px 8px}\n"
     ".scale{width:360px;margin:6px 0 14px}.scale img{height:14px}.scale div{display:flex;"
     "justify-content:space-between;font-size:12px;color:#5b6675}\n"
-    "@media(max-width:760px){.hero{display:block}.hero figure{margin-bottom:16px}.plots figure{width:100%}"
+    "@media screen and (max-width:760px){.hero{display:block}.hero figure{margin-bottom:16px}.plots figure{width:100%}"
     ".row figure{width:calc(33% - 10px)}.wide{overflow-x:auto}}\n"
     "@page{margin:14mm}@media print{body{font-size:11pt;max-width:none;padding:0;-webkit-print-color-adjust:exact;"
     "print-color-adjust:exact}h2{break-after:avoid;margin-top:26px}figure,tr,.hero{break-inside:avoid}"
-    "thead{display:table-header-group}table{font-size:9pt}td,th{padding:2px 6px}.verdict{font-size:15pt}}\n";
+    "thead{display:table-header-group}.hero{gap:20px}table{font-size:9pt}td,th{padding:2px "
+    "6px}.verdict{font-size:15pt}}\n";
 
 static void put_style(FILE *out) {
     fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
@@ -57,8 +58,8 @@ static void put_verdict(FILE *out, const ang_report *report) {
     char time[32], most[32], worst[32];
     fputs("<p class=\"verdict\">", out);
     if (!run) {
-        fputs("No setting could be timed as a whole picture within the time limit, so that none can be "
-              "recommended.</p>\n",
+        fputs("No setting could be drawn and timed as a whole picture, so that none can be recommended; why is at the "
+              "end.</p>\n",
               out);
         return;
     }
@@ -82,6 +83,8 @@ static void put_verdict(FILE *out, const ang_report *report) {
     }
     fprintf(out, " The worst pixel%s is off by %s.</p>\n", report->truth.whole.rgba && !run->subset ? "" : " compared",
             worst);
+    fprintf(out, "<p><code>angioscope render --method %s --step %g</code></p>\n", run->method->name,
+            run->options.step_voxels);
 }
 
 static void put_choice(FILE *out, const char *what, const ang_report_run *run) {
@@ -322,7 +325,7 @@ static void put_method(FILE *out, const ang_report *report) {
     fprintf(out,
             "<li>The subset, for steps below 1/8 voxel and for orders: %d x %d pixels, every %d%s along each axis from "
             "pixel (%d, %d) on, drawn by lot with seed 1. Times of such pictures (&asymp;) are those of the whole "
-            "picture at 1/8 times the ratio of the subset's times.</li>\n",
+            "picture at 1/8 times the ratio of the subset's times, and so are their samples.</li>\n",
             truth->subset.width, truth->subset.height, truth->stride,
             truth->stride == 1   ? "st"
             : truth->stride == 2 ? "nd"

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* RMS errors below are those of sums in 32 bits, whatever the step. */
-static const double rounding_levels = 1e-3;
+static const double rounding_levels = 2e-4;
 /* Coarser steps are too coarse for orders to show. */
 static const double coarsest_order_step = 1;
 
@@ -18,6 +18,7 @@ double ang_report_error(const ang_report_run *run, ang_report_kind kind) {
 }
 
 static void judge_time(ang_report_run *run) {
+    run->samples_per_pixel = run->drawn ? (double)run->samples / (double)run->pixels : (double)NAN;
     run->median_ms = run->least_ms = run->most_ms = (double)NAN;
     if (!run->drawn || run->frames == 0) return;
     double sorted[ANG_REPORT_FRAMES];
@@ -40,8 +41,8 @@ const ang_report_run *ang_report_find(const ang_report *report, const ang_method
     return NULL;
 }
 
-/* The time of a whole picture of a step that was drawn on the subset: that of the finest whole one, times the ratio of
- * their times on the subset. */
+/* Time and samples of a whole picture of a step that was drawn on the subset: those of the finest whole one, times the
+ * ratio of theirs on the subset. Small pictures cost more a pixel, and slicing joins boxes otherwise for them. */
 static void scale_time(const ang_report *report, ang_report_run *run) {
     double step = ang_report_fine_step;
     const ang_report_run *whole = ang_report_find(report, run->method, ANG_REPORT_STEPS, step, false);
@@ -50,6 +51,8 @@ static void scale_time(const ang_report *report, ang_report_run *run) {
     run->median_ms *= ratio;
     run->least_ms *= ratio;
     run->most_ms *= ratio;
+    if (whole && whole->drawn && part && part->drawn)
+        run->samples_per_pixel *= whole->samples_per_pixel / part->samples_per_pixel;
     run->estimated = true;
 }
 
@@ -133,25 +136,24 @@ static const ang_report_run *fastest_within(const ang_report *report, double lev
     return best;
 }
 
-/* The whole picture with the least error, of equals the fastest. */
+/* The fastest of the whole pictures whose error is the least or hardly greater. */
 static const ang_report_run *most_exact(const ang_report *report) {
-    const ang_report_run *best = NULL;
+    double least = INFINITY;
     for (size_t i = 0; i < report->run_count; i++) {
         const ang_report_run *run = &report->run[i];
-        if (!ang_report_is_point(run) || run->subset || !isfinite(run->median_ms)) continue;
-        bool better = !best || run->error.p999 < best->error.p999 ||
-                      (run->error.p999 <= best->error.p999 && run->median_ms < best->median_ms);
-        if (better) best = run;
+        if (ang_report_is_point(run) && !run->subset && isfinite(run->median_ms)) least = fmin(least, run->error.p999);
     }
-    return best;
+    return fastest_within(report, (1 + ang_report_slack) * least, false);
 }
+
+static bool is_scaled(const ang_report_run *run) { return run->group == ANG_REPORT_STEPS && run->subset; }
 
 bool ang_report_judge(ang_report *report, ang_error *err) {
     for (size_t i = 0; i < report->run_count; i++) judge_time(&report->run[i]);
     /* What gives the scale last. */
     for (int scale = 0; scale < 2; scale++)
         for (size_t i = 0; i < report->run_count; i++)
-            if (report->run[i].subset && ang_report_is_point(&report->run[i]) == (scale == 0))
+            if (is_scaled(&report->run[i]) && ang_report_is_point(&report->run[i]) == (scale == 0))
                 scale_time(report, &report->run[i]);
     if (!judge_fronts(report, err) || !judge_orders(report, err)) return false;
     report->exact = most_exact(report);

@@ -18,6 +18,7 @@ typedef struct bench {
     const ang_method *const *methods;
     ang_renderer **renderer;
     char (*refusal)[256]; /* why a method cannot be used; "" */
+    ang_code code;        /* of the last refusal */
     size_t method_count;
     double work, done, frame_work; /* of all frames, of those drawn, of the one in progress; for the progress bar */
 } bench;
@@ -54,11 +55,14 @@ static ang_renderer *renderer_of(bench *b, ang_report_run *run) {
     if (!b->renderer[m] && !b->refusal[m][0]) {
         ang_error err = {0};
         if (run->method->needs_gl && !report->gl)
-            ang_fail(&err, ANG_GL, "it needs OpenGL, and there is none (--backend none)");
+            ang_fail(&err, ANG_GL, "method %s needs OpenGL, and there is none (--backend none)", run->method->name);
         else
             b->renderer[m] = run->method->create(run->method->needs_gl ? report->gl : NULL, report->volume,
                                                  &report->picture.render, &err);
-        if (!b->renderer[m]) snprintf(b->refusal[m], sizeof b->refusal[m], "%.255s", err.message);
+        if (!b->renderer[m]) {
+            snprintf(b->refusal[m], sizeof b->refusal[m], "%.255s", err.message);
+            b->code = err.code;
+        }
     }
     if (!b->renderer[m]) snprintf(run->left_out, sizeof run->left_out, "%s", b->refusal[m]);
     return b->renderer[m];
@@ -223,6 +227,13 @@ static bool time_all(bench *b, ang_error *err) {
     return true;
 }
 
+/* Whether every method that was asked for refused. */
+static bool none_can(const bench *b) {
+    for (size_t i = 0; i < b->report->run_count; i++)
+        if (b->report->run[i].drawn || !b->refusal[index_of(b, b->report->run[i].method)][0]) return false;
+    return true;
+}
+
 static bool open_bench(bench *b, ang_error *err) {
     while (b->methods[b->method_count]) b->method_count++;
     b->renderer = ang_alloc(b->method_count, sizeof(ang_renderer *), "renderers", err);
@@ -248,6 +259,10 @@ bool ang_report_measure(ang_report *report, ang_error *err) {
     }
     b.work = fmax(b.work, 1);
     bool done = open_bench(&b, err) && draw_all(&b, err) && time_all(&b, err);
+    if (done && none_can(&b)) {
+        ang_fail(err, b.code, "there is nothing to report: %s", b.refusal[index_of(&b, report->run[0].method)]);
+        done = false;
+    }
     close_bench(&b);
     return done;
 }

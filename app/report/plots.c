@@ -69,7 +69,7 @@ static bool front_only(const ang_report *report, const ang_report_run *run, int 
 static bool samples_over_step(const ang_report *report, const ang_report_run *run, int kind, double *x, double *y) {
     (void)report, (void)kind;
     *x = run->options.step_voxels;
-    *y = (double)run->samples / (double)run->pixels;
+    *y = run->samples_per_pixel;
     return true;
 }
 

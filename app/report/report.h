@@ -49,7 +49,8 @@ typedef struct ang_report_run {
 
     /* What follows (judge.c). Times are of the whole picture; NaN where there are none. */
     double median_ms, least_ms, most_ms;
-    bool estimated;               /* not timed as a whole but derived */
+    double samples_per_pixel;
+    bool estimated;               /* these four are not of a whole picture but derived */
     bool front[ANG_REPORT_KINDS]; /* on the Pareto front of that error over time, among ANG_REPORT_STEPS */
 } ang_report_run;
 

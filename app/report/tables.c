@@ -73,8 +73,6 @@ static void put_similarity(FILE *out, const ang_metrics *error) {
         fputs("<td>&ndash;</td>", out);
 }
 
-static double per_pixel(const ang_report_run *run) { return (double)run->samples / (double)run->pixels; }
-
 static void put_setting(FILE *out, const ang_report *report, const ang_report_run *run, bool first) {
     char step[16];
     bool chosen = run == report->recommended;
@@ -85,7 +83,7 @@ static void put_setting(FILE *out, const ang_report *report, const ang_report_ru
     put_levels(out, run->error.p999, run->front[ANG_REPORT_P999]);
     put_levels(out, run->error.rms, run->front[ANG_REPORT_RMS]);
     put_similarity(out, &run->error);
-    fprintf(out, "<td>%.1f</td><td>%d</td><td>%zu</td></tr>\n", per_pixel(run), run->frames, run->compared);
+    fprintf(out, "<td>%.1f</td><td>%d</td><td>%zu</td></tr>\n", run->samples_per_pixel, run->frames, run->compared);
 }
 
 void ang_report_put_settings_table(FILE *out, const ang_report *report) {
@@ -122,7 +120,7 @@ static void put_switch(FILE *out, const ang_report_run *run, const ang_report_ru
     put_levels(out, run->error.max, false);
     put_levels(out, run->error.p999, false);
     put_levels(out, run->error.rms, false);
-    fprintf(out, "<td>%.1f</td><td>%zu</td></tr>\n", per_pixel(run), run->compared);
+    fprintf(out, "<td>%.1f</td><td>%zu</td></tr>\n", run->samples_per_pixel, run->compared);
 }
 
 void ang_report_put_switches_table(FILE *out, const ang_report *report) {
@@ -146,8 +144,10 @@ void ang_report_put_switches_table(FILE *out, const ang_report *report) {
 /* What a fitted order says beside the expected one. */
 static const char *verdict(const ang_order *fit, const ang_expected_order *expected) {
     if (isnan(fit->order)) return "too few errors above rounding to tell";
-    if (fit->order < expected->least - 0.25) return "lower than expected";
-    if (fit->order > expected->most + 0.25) return "higher than expected";
+    /* Whether by chance: two standard errors, and a quarter for the few pixels there are. */
+    double doubt = fmax(0.25, isfinite(fit->spread) ? 2 * fit->spread : 0);
+    if (fit->order < expected->least - doubt) return "lower than expected";
+    if (fit->order > expected->most + doubt) return "higher than expected";
     return "as expected";
 }
 

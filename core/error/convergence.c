@@ -34,7 +34,7 @@ ang_order ang_order_fit(const double *step, const double *error, size_t count, d
             continue;
         }
         double x = log(step[i]), y = log(error[i]);
-        if (fit.used >= 2 && (y - last_y) / (x - last_x) < 0.2 * slope(&sum)) break;
+        if (fit.used >= 2 && (y - last_y) / (x - last_x) < 0.4 * slope(&sum)) break;
         add(&sum, x, y);
         if (fit.used++ == 0) fit.coarsest = step[i];
         fit.finest = step[i];

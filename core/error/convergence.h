@@ -18,8 +18,8 @@ typedef struct ang_order {
 
 /* Fits a line to log(error) over log(step) by least squares (Etiene et al., IEEE TVCG 20(1), 2014, section 4). The
  * steps descend. Errors that are not finite or not above `floor`, where rounding and not the step decides, are left
- * out; so are the finest as long as the error does not fall from one step to the next by at least a fifth of what the
- * slope of those before it would give: they lie on a floor of their own. */
+ * out; so are the finest as long as the error does not fall from one step to the next by at least two fifths of what
+ * the slope of those before it would give: they lie on a floor of their own. */
 ang_order ang_order_fit(const double *step, const double *error, size_t count, double floor);
 
 /* The order to expect of the RMS error of a method that samples at the middle of each step (numerics.md), and why. */

@@ -313,6 +313,8 @@ static void bad_requests_are_refused(void **state) {
     expect(2, "report " SCENE " -o " TMP "/never --method reference --quiet 2>&1");
     assert_non_null(strstr(output, "--method reference"));
     expect(2, "report " SCENE " -o " TMP "/never --time-limit 0 2>&1");
+    expect(5, "report " SCENE " -o " TMP "/never --backend none --quiet 2>&1");
+    assert_non_null(strstr(output, "--backend none"));
     expect(7, "report " SCENE " -o " DIR "/report.csv/deeper 2>&1");
     expect(3, "report " TMP "/nothing-here -o " TMP "/never 2>&1");
     assert_false(exists(TMP "/never/report.html"));
