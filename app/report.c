@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *const files[] = {"report.html", "report.csv", "report.json"};
 
@@ -104,10 +105,14 @@ static void note_limits(ang_report *report) {
                       report->truth.subset.width * report->truth.subset.height);
 }
 
+/* `svg` NULL: there is no plot. */
 static bool write_plot(const ang_report *report, int kind, const char *svg, ang_error *err) {
     char path[4096];
-    return path_of(report->options, ang_report_plot_file((ang_report_plot_kind)kind), path, sizeof path, err) &&
-           ang_file_replace(path, svg, strlen(svg), err);
+    if (!path_of(report->options, ang_report_plot_file((ang_report_plot_kind)kind), path, sizeof path, err))
+        return false;
+    if (svg) return ang_file_replace(path, svg, strlen(svg), err);
+    unlink(path); /* that of another report */
+    return true;
 }
 
 static bool write_all(ang_report *report, ang_error *err) {
@@ -117,8 +122,7 @@ static bool write_all(ang_report *report, ang_error *err) {
         good = good && path_of(report->options, files[i], path[i], sizeof path[i], err);
     if (!good) return false;
     ang_report_plot(report, plots);
-    for (int kind = 0; kind < ANG_REPORT_PLOTS; kind++)
-        good = good && (!plots[kind] || write_plot(report, kind, plots[kind], err));
+    for (int kind = 0; kind < ANG_REPORT_PLOTS; kind++) good = good && write_plot(report, kind, plots[kind], err);
     good = good && ang_report_write_csv(report, path[1], err) && ang_report_write_json(report, path[2], err) &&
            ang_report_write_html(report, plots, path[0], err);
     for (int kind = 0; kind < ANG_REPORT_PLOTS; kind++) free(plots[kind]);

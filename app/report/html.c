@@ -118,15 +118,15 @@ static bool picture_of(const ang_report *report, const ang_report_run *run, ang_
     return ang_report_cache_get_image(report->cache, name, scene->width, scene->height, image);
 }
 
-static void put_hero(FILE *out, const ang_report *report) {
+static void put_hero(FILE *out, const ang_report *report, bool pictures) {
     ang_image image = {0};
     fputs("<h1>How exact is this picture, and how long does it take?</h1>\n<p class=\"under\">Preset ", out);
     ang_report_put_text(out, report->picture.preset->name);
     fprintf(out, ", %d x %d pixels, every method measured on this machine against an exact computation. ",
             report->picture.scene.width, report->picture.scene.height);
     fputs("Not a medical device; not for diagnosis.</p>\n<div class=\"hero\">", out);
-    bool drawn = picture_of(report, report->recommended, &image);
-    if (drawn || picture_of(report, report->exact, &image)) {
+    bool drawn = pictures && picture_of(report, report->recommended, &image);
+    if (pictures && (drawn || picture_of(report, report->exact, &image))) {
         fputs("<figure>", out);
         ang_report_put_picture(out, &image, report->picture.scene.background, "the picture", "picture");
         fprintf(out, "<figcaption>Drawn with %s.</figcaption></figure>\n",
@@ -350,14 +350,16 @@ static void put_method(FILE *out, const ang_report *report) {
 bool ang_report_write_html(ang_report *report, char *const plots[ANG_REPORT_PLOTS], const char *path, ang_error *err) {
     char *text = NULL;
     size_t size = 0;
+    bool pictures, heat;
     FILE *out = open_memstream(&text, &size);
     if (!out) return ang_fail(err, ANG_LIMIT, "no memory for %s", path);
+    ang_report_can_picture(report, &pictures, &heat);
     put_style(out);
-    put_hero(out, report);
+    put_hero(out, report, pictures);
     put_times(out, report, plots);
     put_orders(out, report, plots);
     put_switches(out, report);
-    put_pictures(out, report);
+    if (heat) put_pictures(out, report);
     put_method(out, report);
     fputs("</body></html>\n", out);
     bool whole = fclose(out) == 0 && text;

@@ -92,3 +92,17 @@ bool ang_report_put_heat_scale(FILE *out) {
     ang_image_clear(&bar);
     return good;
 }
+
+void ang_report_can_picture(ang_report *report, bool *pictures, bool *heat) {
+    float value = 0, rgba[4] = {0, 0, 0, 1};
+    ang_image pixel = {1, 1, rgba}, map = {0};
+    unsigned char *data = NULL;
+    size_t size = 0;
+    ang_error err = {0};
+    *pictures = ang_image_png(&pixel, opaque_black, &data, &size, &err);
+    free(data);
+    if (!*pictures) ang_notes_add(&report->notes, "there are no pictures: %s", err.message);
+    *heat = *pictures && ang_heat_image(&value, 1, 1, 1, &map, &err);
+    ang_image_clear(&map);
+    if (*pictures && !*heat) ang_notes_add(&report->notes, "there are no heat maps: %s", err.message);
+}

@@ -176,6 +176,8 @@ void ang_report_plot(ang_report *report, char *plots[ANG_REPORT_PLOTS]);
 
 /* pictures.c: as data within a page. */
 enum { ANG_REPORT_PICTURE_SIDE = 640 }; /* pixels; larger pictures are shrunk by a whole number */
+/* Whether this build makes pictures, and heat maps of them; what it lacks goes to the notes. */
+void ang_report_can_picture(ang_report *report, bool *pictures, bool *heat);
 /* Writes an <img> of the picture over its background, with `alt` (plain text) and `class`. False, with nothing written,
  * where this build makes no PNG. */
 bool ang_report_put_picture(FILE *out, const ang_image *image, const double background[4], const char *alt,

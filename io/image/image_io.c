@@ -143,7 +143,12 @@ bool ang_image_write(const char *path, const ang_image *image, const double back
 bool ang_image_png(const ang_image *image, const double background[4], unsigned char **data, size_t *size,
                    ang_error *err) {
     ang_bytes bytes = {0};
+#ifdef ANG_WITH_OIIO
     bool whole = encode_bytes(PNG, image, background, &bytes, err);
+#else
+    (void)image, (void)background;
+    bool whole = ang_fail(err, ANG_USAGE, "this build has no OpenImageIO (ANG_WITH_OIIO), which makes PNG");
+#endif
     *data = bytes.data;
     *size = bytes.size;
     return whole;
