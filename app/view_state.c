@@ -100,6 +100,8 @@ static void add_study(cJSON *root, const ang_viewer_state *state) {
     cJSON_AddBoolToObject(root, "preset_changed", document->edited);
     ang_json_add_number(root, "shift_hu", document->shift_hu);
     ang_json_add_number(root, "stretch", document->stretch);
+    ang_json_add_number(root, "azimuth_deg", document->view.azimuth_deg);
+    ang_json_add_number(root, "elevation_deg", document->view.elevation_deg);
     cJSON_AddItemToObject(root, "render", render_options(state));
     cJSON_AddBoolToObject(root, "refined", state->refined);
     ang_json_add_number(root, "frame_ms", state->frame_ms);

@@ -99,32 +99,24 @@ double ang_document_opacity(const ang_document *document, int index) {
 }
 
 /* What two states differ in. */
-enum { PART_CAMERA = 1, PART_WINDOW = 2, PART_REST = 4 };
+typedef enum difference { SAME, SAME_BUT_ZOOM, OTHER } difference;
 
-/* Bytes: what could be written without a difference has no padding that is ever written to (documents are copied whole
- * and begin as zeros). */
-static unsigned difference(const ang_document *a, const ang_document *b) {
-    unsigned parts = 0;
-    if (memcmp(&a->view, &b->view, sizeof a->view) != 0) parts |= PART_CAMERA;
-    if (memcmp(&a->window_centre, &b->window_centre, sizeof(double)) != 0 ||
-        memcmp(&a->window_width, &b->window_width, sizeof(double)) != 0)
-        parts |= PART_WINDOW;
-    ang_document rest = *a;
-    rest.view = b->view;
-    rest.window_centre = b->window_centre;
-    rest.window_width = b->window_width;
-    if (memcmp(&rest, b, sizeof rest) != 0) parts |= PART_REST;
-    return parts;
+/* By bytes: documents are copied whole and begin as zeros. */
+static difference compare(const ang_document *a, const ang_document *b) {
+    if (memcmp(a, b, sizeof *a) == 0) return SAME;
+    ang_document zoomed = *a;
+    zoomed.view.zoom = b->view.zoom;
+    memcpy(zoomed.view.pan_mm, b->view.pan_mm, sizeof zoomed.view.pan_mm);
+    return memcmp(&zoomed, b, sizeof zoomed) == 0 ? SAME_BUT_ZOOM : OTHER;
 }
 
 void ang_history_note(ang_history *history, const ang_document *document, double seconds) {
     if (history->count > 0) {
-        unsigned parts = difference(&history->states[history->now], document);
-        if (parts == 0) return;
-        bool again = history->now > 0 && parts == history->parts && (parts & PART_REST) == 0 &&
-                     seconds - history->seconds <= same_gesture_seconds && history->now == history->count - 1;
+        difference found = compare(&history->states[history->now], document);
+        if (found == SAME) return;
+        bool again = found == SAME_BUT_ZOOM && history->zoomed && seconds - history->seconds <= same_gesture_seconds;
         history->seconds = seconds;
-        history->parts = parts;
+        history->zoomed = found == SAME_BUT_ZOOM;
         if (again) {
             history->states[history->now] = *document;
             return;
@@ -152,14 +144,14 @@ bool ang_history_can_redo(const ang_history *history) { return history->now + 1 
 bool ang_history_undo(ang_history *history, ang_document *document) {
     if (!ang_history_can_undo(history)) return false;
     *document = history->states[--history->now];
-    history->parts = 0;
+    history->zoomed = false;
     return true;
 }
 
 bool ang_history_redo(ang_history *history, ang_document *document) {
     if (!ang_history_can_redo(history)) return false;
     *document = history->states[++history->now];
-    history->parts = 0;
+    history->zoomed = false;
     return true;
 }
 

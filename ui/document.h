@@ -49,11 +49,12 @@ typedef struct ang_history {
     ang_document *states;
     int count, capacity, now; /* states[now] is what is shown when nothing is pending */
     double seconds;           /* when states[now] was noted */
-    unsigned parts;           /* what the step to it changed */
+    bool zoomed;              /* the step to it changed zoom and pan alone */
 } ang_history;
 
-/* Notes a state that is to be kept. Where it differs from the last in the camera or the window alone, and so did that
- * from the one before, a second or less ago, it takes its place. */
+/* Notes a state that is to be kept; to be called when no drag is under way. Turns of the wheel come one by one: a state
+ * that differs from the last in zoom and pan alone, as that did from the one before, takes its place where it comes
+ * within a second. */
 void ang_history_note(ang_history *history, const ang_document *document, double seconds);
 /* Steps back or forth; false where there is nothing. */
 bool ang_history_undo(ang_history *history, ang_document *document);

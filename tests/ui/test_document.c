@@ -126,7 +126,7 @@ static void undo_and_redo_walk_the_states(void **state) {
     ang_history_clear(&history);
 }
 
-/* A camera that is turned step by step is one step back; another second is another step. */
+/* Turns of the wheel in a row are one step back; what comes later or is something else is another. */
 static void one_gesture_is_one_step(void **state) {
     (void)state;
     ang_history history = {0};
@@ -134,20 +134,26 @@ static void one_gesture_is_one_step(void **state) {
     start(&document);
     ang_history_note(&history, &document, 0);
     for (int i = 0; i < 10; i++) {
-        document.view.azimuth_deg += 3;
+        document.view.zoom *= 1.5;
+        document.view.pan_mm[1] += 2;
         ang_history_note(&history, &document, 1 + 0.1 * i);
     }
-    document.view.azimuth_deg = 90;
+    document.view.zoom = 90;
     ang_history_note(&history, &document, 10);
     document.window_centre = 5;
     ang_history_note(&history, &document, 10.1);
+    document.window_centre = 6;
+    ang_history_note(&history, &document, 10.2);
+    assert_true(ang_history_undo(&history, &document));
+    assert_close(document.window_centre, 5, 0);
     assert_true(ang_history_undo(&history, &document));
     assert_close(document.window_centre, 0, 0);
-    assert_close(document.view.azimuth_deg, 90, 0);
+    assert_close(document.view.zoom, 90, 0);
     assert_true(ang_history_undo(&history, &document));
-    assert_close(document.view.azimuth_deg, 30, 1e-12);
+    assert_close(document.view.pan_mm[1], 20, 1e-12);
     assert_true(ang_history_undo(&history, &document));
-    assert_close(document.view.azimuth_deg, 0, 0);
+    assert_close(document.view.zoom, 1, 0);
+    assert_false(ang_history_can_undo(&history));
     ang_history_clear(&history);
 }
 
