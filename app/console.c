@@ -148,3 +148,12 @@ const char *const *ang_app_preset_folders(void) {
     static const char *const folders[] = {ANG_PRESET_INSTALLED, ANG_PRESET_SOURCE, NULL};
     return folders;
 }
+
+ang_load_options ang_app_load_options(const ang_options *options) {
+    return (ang_load_options){.series = options->series,
+                              .raw_dims = options->raw_dims,
+                              .raw_type = options->raw_type,
+                              .raw_spacing = options->raw_spacing,
+                              .threads = options->threads,
+                              .strict = options->strict};
+}

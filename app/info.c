@@ -9,12 +9,7 @@
 
 int ang_app_info(const ang_options *options, ang_error *err) {
     if (!ang_app_arguments(options, 1, "info: give one file or folder to read", err)) return ANG_USAGE;
-    ang_load_options how = {.series = options->series,
-                            .raw_dims = options->raw_dims,
-                            .raw_type = options->raw_type,
-                            .raw_spacing = options->raw_spacing,
-                            .threads = options->threads,
-                            .strict = options->strict};
+    ang_load_options how = ang_app_load_options(options);
     ang_app_progress *progress = ang_app_progress_start(options->quiet);
     ang_load_report report = {0};
     ang_volume *volume = ang_load(options->arguments[0], &how, &report, ang_app_progress_sink(progress), err);

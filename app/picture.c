@@ -163,12 +163,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
 
 static ang_volume *load(const ang_options *options, const ang_app_progress *progress, ang_load_report *report,
                         double *milliseconds, ang_error *err) {
-    ang_load_options how = {.series = options->series,
-                            .raw_dims = options->raw_dims,
-                            .raw_type = options->raw_type,
-                            .raw_spacing = options->raw_spacing,
-                            .threads = options->threads,
-                            .strict = options->strict};
+    ang_load_options how = ang_app_load_options(options);
     double start = ang_now_ms();
     ang_volume *volume = ang_load(options->arguments[0], &how, report, ang_app_progress_sink(progress), err);
     *milliseconds = ang_now_ms() - start;

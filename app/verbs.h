@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/notes.h"
 #include "core/base/progress.h"
+#include "io/load.h"
 
 int ang_app_info(const ang_options *options, ang_error *err);
 int ang_app_render(const ang_options *options, ang_error *err);
@@ -18,6 +19,9 @@ int ang_app_selfcheck(const ang_options *options, ang_error *err);
 
 /* Where presets are looked for, NULL at the end; valid until the program ends. */
 const char *const *ang_app_preset_folders(void);
+
+/* How the options ask for input to be read; borrows from `options`. */
+ang_load_options ang_app_load_options(const ang_options *options);
 
 /* Progress on stderr: a bar on a terminal, else a line every 10 %; asks for a stop after SIGINT or SIGTERM.
  * NULL-context where `quiet`. */

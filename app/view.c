@@ -51,12 +51,7 @@ static void release(void *context, ang_study *study) {
 
 static bool load(void *context, const char *path, ang_study *study, const ang_progress *progress, ang_error *err) {
     const ang_options *options = ((view *)context)->options;
-    ang_load_options how = {.series = options->series,
-                            .raw_dims = options->raw_dims,
-                            .raw_type = options->raw_type,
-                            .raw_spacing = options->raw_spacing,
-                            .threads = options->threads,
-                            .strict = options->strict};
+    ang_load_options how = ang_app_load_options(options);
     *study = (ang_study){0};
     ang_load_report *report = calloc(1, sizeof *report);
     if (!report) return ang_fail(err, ANG_LIMIT, "no memory for a report");

@@ -2,7 +2,9 @@
 #ifndef ANG_TESTS_APP_PROGRAM_H
 #define ANG_TESTS_APP_PROGRAM_H
 
+#include <stdbool.h>
 #include <stdio.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 static char output[1 << 20];
@@ -18,6 +20,17 @@ static inline int run(const char *arguments) {
     int status = pclose(pipe);
     assert_true(WIFEXITED(status));
     return WEXITSTATUS(status);
+}
+
+/* Fails where the program ends otherwise. */
+static inline void expect(int code, const char *arguments) {
+    int actual = run(arguments);
+    if (actual != code) fail_msg("angioscope %s: exit code %d, not %d; it said: %s", arguments, actual, code, output);
+}
+
+static inline bool exists(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0;
 }
 
 #endif

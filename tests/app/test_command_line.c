@@ -19,16 +19,6 @@
 #define TMP     ANG_TEST_TMP "/command-line"
 #define PHANTOM TMP "/phantom"
 
-static void expect(int code, const char *arguments) {
-    int actual = run(arguments);
-    if (actual != code) fail_msg("angioscope %s: exit code %d, not %d; it said: %s", arguments, actual, code, output);
-}
-
-static bool exists(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0;
-}
-
 static int make_phantom(void **state) {
     (void)state;
     mkdir(TMP, 0777);

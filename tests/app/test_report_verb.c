@@ -20,16 +20,6 @@
 #define DIR     TMP "/out"
 #define SCENE   PHANTOM " --preset cta-head --size 32x32 --view 20,10"
 
-static void expect(int code, const char *arguments) {
-    int actual = run(arguments);
-    if (actual != code) fail_msg("angioscope %s: exit code %d, not %d; it said: %s", arguments, actual, code, output);
-}
-
-static bool exists(const char *path) {
-    struct stat status;
-    return stat(path, &status) == 0;
-}
-
 /* A file as a string; fails where there is none. */
 static char *read_file(const char *path) {
     FILE *file = fopen(path, "rb");
