@@ -16,11 +16,6 @@
 
 #define TMP ANG_TEST_TMP "/selfcheck"
 
-static void expect(int code, const char *arguments) {
-    int actual = run(arguments);
-    if (actual != code) fail_msg("angioscope %s: exit code %d, not %d; it said: %s", arguments, actual, code, output);
-}
-
 static int make_folder(void **state) {
     (void)state;
     mkdir(TMP, 0777);
