@@ -115,6 +115,11 @@ static const option_spec table[] = {
         "main memory)"),
     FLAG_OPTION("count-shown", 0, ANG_VERB_RENDER, count_shown,
                 "count only samples that show, in mode dvr without shading: the fewest that any method could take"),
+    REAL_OPTION("max-error", ANG_VERB_RENDER, max_error, "X", 1e-6, 255, NULL, "levels",
+                "take the fastest method and step whose error is estimated to be at most this, in levels of 255"),
+    REAL_OPTION("max-time", ANG_VERB_RENDER, max_time, "MS", 1e-3, 1e9, NULL, "ms",
+                "take the method, step and, where time is short, every second or fourth pixel along each axis with the "
+                "least error that draw a frame within this time, once everything is built"),
     TEXT_OPTION("force", ANG_VERB_RENDER, force, "LIST|all", NULL,
                 "use parts that the plan leaves out (see --explain), to prove that they change nothing: gradients, "
                 "exponential, colour, rounding, termination, skipping, descent, near-plane, directions, border, slabs, "

@@ -26,8 +26,8 @@ typedef struct ang_options {
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
         *skipping, *cut_plane, *measure, *force, *write_state, *pictures;
     const char *cases;
-    double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold,
-        time_limit; /* NaN where not given and without default */
+    double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold, time_limit, max_error,
+        max_time; /* NaN where not given and without default */
     int frames, repeat, threads, seed, pass_steps, quads;
     bool no_termination, no_skip, count_shown, separate_passes, show_bricks, axes, explain, manual_filter, strict,
         annotate, keep_phi, quiet, verbose, help, json_flag;

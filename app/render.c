@@ -31,6 +31,7 @@ typedef struct session {
     const ang_method *method;
     ang_renderer *renderer;
     ang_image image;
+    ang_image drawn; /* where pixels between are interpolated: those that are not */
     ang_kept kept;
     float *counts; /* of each pixel, for --mode lookups */
     ang_render_summary summary;
@@ -73,6 +74,22 @@ static void note_ignored(session *run) {
         ang_notes_add(&run->summary.warnings, "--count-shown has no effect but in mode dvr with --shading none");
 }
 
+/* Method, step and pixels that keep --max-error and --max-time. */
+static bool open_planned(session *run, ang_error *err) {
+    ang_app_budget *budget = &run->summary.budget;
+    double start = ang_now_ms();
+    if (!ang_app_budget_plan(budget, run->options, run->gl, run->volume, &run->picture, run->method,
+                             ang_app_progress_sink(run->progress), err))
+        return false;
+    run->summary.upload_ms = ang_now_ms() - start - budget->planned.planning_ms;
+    run->method = budget->planned.method;
+    run->renderer = budget->planned.renderer;
+    ang_plan_use(&run->summary.plan, "%s: %s", run->method->name, run->method->title);
+    ang_app_budget_explain(budget, &run->summary.plan);
+    note_ignored(run);
+    return true;
+}
+
 /* Finds the method and, where it needs one, a GL context. */
 static bool open_renderer(session *run, ang_error *err) {
     const char *name = run->options->method, *why = "--method";
@@ -83,6 +100,7 @@ static bool open_renderer(session *run, ang_error *err) {
     bool forced = run->picture.render.forced >> ANG_PART_GL & 1u;
     bool wants_gl = automatic || forced ? backend != ANG_BACKEND_NONE : run->method->needs_gl;
     if (wants_gl && !open_gl(run, backend, err)) return false;
+    if (ang_app_budget_given(run->options) && !run->picture.lookups) return open_planned(run, err);
     if (automatic)
         run->method = ang_method_choose(run->gl, run->volume, &run->picture.scene, &run->picture.render, &why);
     ang_plan_use(&run->summary.plan, "%s: %s", run->method->name, run->method->title);
@@ -113,12 +131,16 @@ static bool render_frame(session *run, frame_progress *frames, ang_frame_stats *
                          ang_error *err) {
     frames->sink = ang_app_progress_sink(run->progress);
     ang_progress progress = {update_frames, frames};
-    const ang_scene *scene = &run->picture.scene;
+    int stride = run->summary.budget.given ? run->summary.budget.planned.stride : 1;
+    ang_scene scene = stride > 1 ? ang_scene_subset(&run->picture.scene, stride, 0, 0) : run->picture.scene;
+    ang_image *image = stride > 1 ? &run->drawn : &run->image;
+    if (!image->rgba && !ang_image_create(image, scene.width, scene.height, err)) return false;
     const ang_render_options *options = &run->picture.render;
     double start = ang_now_ms();
-    bool done = stats ? ang_kept_render(&run->kept, run->method, run->renderer, scene, options, &run->image, stats,
-                                        &progress, err)
-                      : run->method->render(run->renderer, scene, options, &run->image, NULL, &progress, err);
+    bool done =
+        stats ? ang_kept_render(&run->kept, run->method, run->renderer, &scene, options, image, stats, &progress, err)
+              : run->method->render(run->renderer, &scene, options, image, NULL, &progress, err);
+    if (done && stride > 1) ang_image_enlarge(image, stride, 0, &run->image);
     *milliseconds = ang_now_ms() - start;
     return done && (!run->gl || ang_gl_check(run->gl, err));
 }
@@ -234,6 +256,8 @@ static bool estimate_error(session *run, int frame, ang_error_estimate *estimate
     if (!ang_error_estimate_make(run->method, run->renderer, &run->picture.scene, &run->picture.render, estimate,
                                  ang_app_progress_sink(run->progress), err))
         return false;
+    const ang_planned *planned = &run->summary.budget.planned;
+    if (run->summary.budget.given) estimate->levels = fmin(estimate->levels + planned->interpolation, 255);
     if (frame > 0) return true;
     run->summary.estimated = true;
     run->summary.error = *estimate;
@@ -322,6 +346,23 @@ static bool time_frames(session *run, ang_error *err) {
     return done;
 }
 
+/* Whether the budget was kept: a frame is timed as --repeat times them. */
+static bool check_budget(session *run, ang_error *err) {
+    ang_app_budget *budget = &run->summary.budget;
+    if (!budget->given) return true;
+    double ms = isnan(budget->budget.max_ms) ? NAN : run->summary.first_frame_ms;
+    if (run->summary.timed_frames > 0) {
+        ms = run->summary.median_ms;
+    } else if (!isnan(ms) && run->method->needs_gl) {
+        frame_progress progress = {.what = "checking the time", .frames = 1};
+        /* Without counting the shader is another one, which the first frame compiles. */
+        for (int i = 0; i < 2; i++)
+            if (!render_frame(run, &progress, NULL, &ms, err)) return false;
+    }
+    ang_app_budget_check(budget, ms, &run->summary.warnings);
+    return true;
+}
+
 /* Outputs that would overwrite one another or what is read. */
 static bool check_outputs(const ang_options *options, ang_error *err) {
     const char *json = options->json && strcmp(options->json, "-") != 0 ? options->json : NULL;
@@ -349,7 +390,8 @@ static bool run_all(session *run, ang_error *err) {
     if (!ang_picture_open(options, run->progress, &run->volume, &run->report, &run->picture, &run->summary.load_ms,
                           err))
         return false;
-    if (!open_renderer(run, err) || !render_all(run, err) || !time_frames(run, err)) return false;
+    if (!open_renderer(run, err) || !render_all(run, err) || !time_frames(run, err) || !check_budget(run, err))
+        return false;
     if (!options->json) return true;
     return ang_render_json_write(options->json, run->volume, &run->report, &run->picture, run->method, &run->summary,
                                  options->keep_phi, err);
@@ -376,6 +418,7 @@ int ang_app_render(const ang_options *options, ang_error *err) {
     if (run.method && run.renderer) run.method->destroy(run.renderer);
     if (run.gl) ang_gl_destroy(run.gl);
     ang_image_clear(&run.image);
+    ang_image_clear(&run.drawn);
     ang_kept_clear(&run.kept);
     free(run.counts);
     ang_picture_clear(&run.picture);

@@ -133,6 +133,7 @@ static cJSON *error_json(const ang_picture *picture, const ang_method *method, c
     ang_json_add_number(parts, "termination", known ? e->termination : NAN);
     ang_json_add_number(parts, "filtering", known ? e->filtering : NAN);
     ang_json_add_number(parts, "arithmetic", known ? e->arithmetic : NAN);
+    ang_json_add_number(parts, "interpolation", summary->budget.given ? summary->budget.planned.interpolation : 0);
     ang_json_add_number(error, "quantisation", summary->quantisation);
     ang_json_add_number(error, "rms", known ? e->rms : NAN);
     ang_json_add_number(error, "p999", known ? e->p999 : NAN);
@@ -167,6 +168,7 @@ bool ang_render_json_write(const char *path, const ang_volume *volume, const ang
     cJSON_AddItemToObject(root, "picture", ang_picture_json(picture));
     cJSON_AddItemToObject(root, "plan", plan_json(picture, method, summary));
     cJSON_AddItemToObject(root, "error", error_json(picture, method, summary));
+    if (summary->budget.given) cJSON_AddItemToObject(root, "budget", ang_app_budget_json(&summary->budget));
     cJSON_AddItemToObject(root, "time_ms", time_json(summary));
     cJSON *counts = cJSON_AddObjectToObject(root, "counts");
     ang_json_add_number(counts, "samples", (double)summary->stats.samples);

@@ -2,6 +2,7 @@
 #ifndef ANG_APP_RENDER_JSON_H
 #define ANG_APP_RENDER_JSON_H
 
+#include "app/budget.h"
 #include "app/picture.h"
 #include "core/error/estimate.h"
 
@@ -19,6 +20,7 @@ typedef struct ang_render_summary {
     double quantisation;      /* levels: what writing it rounds by at most */
     ang_plan plan;
     const char *gl_backend, *gl_renderer, *gl_version; /* NULL without GL */
+    ang_app_budget budget; /* where it is given */
     ang_notes warnings;
 } ang_render_summary;
 

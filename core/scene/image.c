@@ -19,6 +19,32 @@ void ang_image_clear(ang_image *image) {
 
 static float clip(double value) { return (float)fmin(fmax(value, 0), 1); }
 
+/* The two pixels between which `at` lies, and the weight of the second. */
+static float between(int at, int first, int stride, int size, int *before, int *after) {
+    float place = (float)(at - first) / (float)stride, last = (float)(size - 1);
+    place = place < 0 ? 0 : place > last ? last : place;
+    *before = (int)place;
+    *after = *before + 1 < size ? *before + 1 : *before;
+    return place - (float)*before;
+}
+
+void ang_image_enlarge(const ang_image *drawn, int stride, int first, ang_image *image) {
+    for (int y = 0; y < image->height; y++)
+        for (int x = 0; x < image->width; x++) {
+            int left, right, above, below;
+            float u = between(x, first, stride, drawn->width, &left, &right);
+            float v = between(y, first, stride, drawn->height, &above, &below);
+            const float *upper = drawn->rgba + 4 * (size_t)drawn->width * (size_t)above;
+            const float *lower = drawn->rgba + 4 * (size_t)drawn->width * (size_t)below;
+            float *out = image->rgba + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
+            for (int c = 0; c < 4; c++) {
+                float a = (1 - u) * upper[4 * left + c] + u * upper[4 * right + c];
+                float b = (1 - u) * lower[4 * left + c] + u * lower[4 * right + c];
+                out[c] = (1 - v) * a + v * b;
+            }
+        }
+}
+
 void ang_image_over(const ang_image *image, const double background[4], float *out) {
     size_t count = (size_t)image->width * (size_t)image->height;
     for (size_t i = 0; i < count; i++) {

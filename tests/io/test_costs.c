@@ -1,0 +1,47 @@
+/* Cost models in the cache: measured once, read again, and measured anew where the file is no good. */
+#include "tests/core/fixtures.h"
+
+#include "io/costs.h"
+#include "io/replace.h"
+
+#include <string.h>
+#include <unistd.h>
+
+static void models_are_kept(void **state) {
+    (void)state;
+    char folder[] = ANG_TEST_TMP "/costs-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(setenv("XDG_CACHE_HOME", folder, 1), 0);
+    ang_costs first, again;
+    ang_costs_origin origin;
+    assert_true(ang_costs_load(NULL, &first, &origin, NULL, NULL));
+    assert_false(origin.cached);
+    assert_int_equal(first.count, 1); /* without OpenGL there is the reference alone */
+    assert_non_null(ang_costs_of(&first, "reference"));
+    assert_null(ang_costs_of(&first, "envelope"));
+    ang_cost_work work = {100, 1e4, 0, 0};
+    assert_true(ang_cost_predict(&first.of[0].model, &work) > 0);
+    assert_true(strncmp(origin.path, folder, strlen(folder)) == 0);
+    assert_true(ang_costs_load(NULL, &again, &origin, NULL, NULL));
+    assert_true(origin.cached);
+    assert_int_equal(again.count, 1);
+    for (int i = 0; i < ANG_COST_TERMS; i++)
+        assert_close(again.of[0].model.term[i], first.of[0].model.term[i], 1e-12 * first.of[0].model.term[i]);
+
+    static const char *const broken[] = {"", "{}", "{\"of\": \"another machine\", \"methods\": []}", "nonsense"};
+    for (size_t i = 0; i < 2; i++) {
+        assert_true(ang_file_replace(origin.path, broken[2 * i + 1], strlen(broken[2 * i + 1]), NULL));
+        assert_true(ang_costs_load(NULL, &again, &origin, NULL, NULL));
+        assert_false(origin.cached);
+    }
+    unlink(origin.path);
+    char below[600];
+    snprintf(below, sizeof below, "%s/angioscope", folder);
+    rmdir(below);
+    rmdir(folder);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(models_are_kept)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
