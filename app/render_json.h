@@ -20,7 +20,7 @@ typedef struct ang_render_summary {
     double quantisation;      /* levels: what writing it rounds by at most */
     ang_plan plan;
     const char *gl_backend, *gl_renderer, *gl_version; /* NULL without GL */
-    ang_app_budget budget; /* where it is given */
+    ang_app_budget budget;                             /* where it is given */
     ang_notes warnings;
 } ang_render_summary;
 
