@@ -241,32 +241,22 @@ static void match_integral(entry ends[2], const ang_transfer_integral *integral,
 }
 
 static void fill_entries(const builder *b, ang_transfer_tables *tables) {
-    ang_transfer_integral sum = {0};
     size_t cursor = 0;
-    for (int i = 0; i <= b->intervals; i++) {
-        double k[4] = {sum.extinction / b->slope, sum.colour[0] / b->slope, sum.colour[1] / b->slope,
-                       sum.colour[2] / b->slope};
-        for (int c = 0; c < 4; c++) {
-            float hi = (float)k[c];
-            tables->prefix[(size_t)i * 8 + 2 * c] = hi;
-            tables->prefix[(size_t)i * 8 + 2 * c + 1] = (float)(k[c] - hi);
-        }
-        if (i == b->intervals) break;
+    for (int i = 0; i < b->intervals; i++) {
         double left = b->first + i * b->width, right = b->first + (i + 1) * b->width;
-        ang_transfer_integral piece = ang_transfer_integrate_between(b->transfer, hu_at(b, left), hu_at(b, right));
         entry ends[2];
         take_limits(b, left, right, &cursor, ends);
-        if (b->opaque[i])
+        if (b->opaque[i]) {
             ends[0].extinction = ends[1].extinction = ANG_TABLE_OPAQUE;
-        else if (b->crowded[i] || b->peaked[i] || !isfinite(ends[0].extinction) || !isfinite(ends[1].extinction))
+        } else if (b->crowded[i] || b->peaked[i] || !isfinite(ends[0].extinction) || !isfinite(ends[1].extinction)) {
+            ang_transfer_integral piece = ang_transfer_integrate_between(b->transfer, hu_at(b, left), hu_at(b, right));
             match_integral(ends, &piece, b->slope * b->width, b->crowded[i]);
+        }
         for (int e = 0; e < 2; e++) {
             float *out = &tables->entries[((size_t)i * 2 + e) * 4];
             for (int c = 0; c < 3; c++) out[c] = (float)ends[e].colour[c];
             out[3] = (float)fmin(ends[e].extinction, ANG_TABLE_OPAQUE);
         }
-        sum.extinction += piece.extinction;
-        for (int c = 0; c < 3; c++) sum.colour[c] += piece.colour[c];
     }
 }
 
@@ -295,14 +285,12 @@ static bool build(builder *b, ang_transfer_tables *tables, uint16_t minimum, uin
     tables->intervals = b->intervals;
     size_t intervals = (size_t)b->intervals;
     tables->entries = ang_alloc(intervals * 8, sizeof *tables->entries, what, err);
-    tables->prefix = ang_alloc((intervals + 1) * 8, sizeof *tables->prefix, what, err);
     tables->visible = ang_alloc(STORED_VALUES + 1, sizeof *tables->visible, what, err);
     tables->point_visible = ang_alloc(STORED_VALUES, sizeof *tables->point_visible, what, err);
     b->opaque = ang_alloc(intervals, sizeof *b->opaque, what, err);
     b->peaked = ang_alloc(intervals, sizeof *b->peaked, what, err);
     b->crowded = ang_alloc(intervals, sizeof *b->crowded, what, err);
-    if (!tables->entries || !tables->prefix || !tables->visible || !tables->point_visible || !b->opaque || !b->peaked ||
-        !b->crowded)
+    if (!tables->entries || !tables->visible || !tables->point_visible || !b->opaque || !b->peaked || !b->crowded)
         return false;
     mark_plateaus(b);
     mark_crowds(b);
@@ -335,7 +323,6 @@ ang_transfer_tables *ang_tables_create(const ang_transfer *transfer, double slop
 void ang_tables_free(ang_transfer_tables *tables) {
     if (!tables) return;
     free(tables->entries);
-    free(tables->prefix);
     free(tables->visible);
     free(tables->point_visible);
     free(tables);

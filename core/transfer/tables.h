@@ -16,13 +16,11 @@
  * Below and above, the end values hold. Next to an isolated peak at opacity 1 the entry is finite and chosen so that
  * the linear interpolant has the exact integral. */
 typedef struct ang_transfer_tables {
-    double first;      /* stored value at the left end */
-    double per_value;  /* intervals in one stored value, a power of two or its inverse */
-    int intervals;     /* >= 1 */
-    float *entries;    /* 2 * intervals * 4 */
-    float *prefix;     /* (intervals + 1) * 8: hi and lo parts of int kappa, int r kappa, int g kappa, int b kappa over
-                          stored values from `first`, as (K.hi, K.lo, R.hi, R.lo, G.hi, G.lo, B.hi, B.lo) */
-    uint32_t *visible; /* 65537 counts for ang_tables_visible */
+    double first;           /* stored value at the left end */
+    double per_value;       /* intervals in one stored value, a power of two or its inverse */
+    int intervals;          /* >= 1 */
+    float *entries;         /* 2 * intervals * 4 */
+    uint32_t *visible;      /* 65537 counts for ang_tables_visible */
     uint8_t *point_visible; /* 65536 flags: extinction > 0 exactly at the stored value */
 } ang_transfer_tables;
 

@@ -1,5 +1,5 @@
 /* The tables against the exact transfer function. */
-#include "core/transfer/tables.h"
+#include "core/transfer/prefix.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -44,9 +44,18 @@ static void look_up(const ang_transfer_tables *t, double stored, double rgbk[4])
     if (l[3] == ANG_TABLE_OPAQUE && r[3] == ANG_TABLE_OPAQUE) rgbk[3] = INFINITY;
 }
 
-static double prefix_at(const ang_transfer_tables *t, int i, int channel) {
-    const float *p = &t->prefix[8 * (size_t)i + 2 * channel];
-    return (double)p[0] + (double)p[1];
+static ang_prefix *sum_up(const ang_transfer *transfer, const ang_transfer_tables *tables, double intercept) {
+    ang_error err;
+    ang_prefix *prefix = ang_prefix_create(tables, transfer, 1, intercept, &err);
+    assert_non_null(prefix);
+    assert_int_equal(prefix->intervals, tables->intervals);
+    return prefix;
+}
+
+/* At the left end of interval i, in 1/mm * stored values: of colour channel 0 to 2, or 3: of the extinction. */
+static double prefix_at(const ang_prefix *prefix, const ang_transfer_tables *tables, int i, int channel) {
+    const float *p = &prefix->sums[8 * (size_t)i + channel];
+    return ((double)p[0] + (double)p[4]) / tables->per_value;
 }
 
 static const ang_transfer_point angio[] = {{-1024, {0, 0, 0}, 0},           {150, {0.6, 0.05, 0.02}, 0},
@@ -67,12 +76,15 @@ static void smooth_functions_are_followed(void **state) {
         assert_float_equal(rgbk[3], kappa, 2e-5 * kappa + 2e-6);
         for (int c = 0; c < 3; c++) assert_float_equal(rgbk[c], colour[c], 1e-6);
     }
+    ang_prefix *prefix = sum_up(t, tables, -1024);
     for (int i = 0; i <= tables->intervals; i++) {
         double hu = tables->first + i / tables->per_value - 1024;
         ang_transfer_integral k = ang_transfer_integrate_between(t, tables->first - 1024, hu);
-        assert_float_equal(prefix_at(tables, i, 0), k.extinction, 1e-12 * k.extinction);
-        for (int c = 0; c < 3; c++) assert_float_equal(prefix_at(tables, i, c + 1), k.colour[c], 1e-12 * k.colour[c]);
+        assert_float_equal(prefix_at(prefix, tables, i, 3), k.extinction, 1e-12 * k.extinction);
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(prefix_at(prefix, tables, i, c), k.colour[c], 1e-12 * k.colour[c]);
     }
+    ang_prefix_free(prefix);
     ang_tables_free(tables);
     ang_transfer_free(t);
 }
@@ -171,8 +183,24 @@ static void plateaus_carry_the_flag(void **state) {
     assert_true(isinf(rgbk[3]));
     look_up(tables, 1000, rgbk);
     assert_true(isinf(rgbk[3]));
-    double total = prefix_at(tables, tables->intervals, 0);
-    assert_float_equal(total, 120, 1e-9);
+    ang_prefix *prefix = sum_up(t, tables, 0);
+    assert_float_equal(prefix_at(prefix, tables, tables->intervals, 3), 120, 1e-9);
+    /* For each interval, and for those outside the table, the nearest plateau at or above it and at or below it. */
+    for (int i = -1; i <= tables->intervals; i++) {
+        double left = tables->first + i / tables->per_value, middle = left + 0.5 / tables->per_value;
+        const float *nearest = &prefix->plateaus[2 * (i + 1)];
+        double above = tables->first + nearest[0] / tables->per_value;
+        double below = tables->first + (nearest[1] + 1) / tables->per_value;
+        if (middle >= 300 || (middle >= 100 && middle < 200)) {
+            assert_float_equal(nearest[0], i, 0);
+            assert_float_equal(nearest[1], i, 0);
+            continue;
+        }
+        assert_float_equal(above, middle < 100 ? 100 : 300, 0);
+        if (middle < 100) assert_true(below < tables->first - 1e6);
+        if (middle > 200) assert_float_equal(below, 200, 0);
+    }
+    ang_prefix_free(prefix);
     ang_tables_free(tables);
     ang_transfer_free(t);
 
@@ -210,7 +238,9 @@ static void peaks_keep_their_integral(void **state) {
             ang_transfer_tables *tables = tabulate(t, 1, 0, 0, 4000, limit);
             double exact = ang_transfer_integrate(t, 4000).extinction;
             assert_float_equal(exact, 100.75, 1e-9);
-            assert_float_equal(prefix_at(tables, tables->intervals, 0), exact, 1e-9);
+            ang_prefix *prefix = sum_up(t, tables, 0);
+            assert_float_equal(prefix_at(prefix, tables, tables->intervals, 3), exact, 1e-9);
+            ang_prefix_free(prefix);
             if (tables->per_value >= 1) assert_float_equal(table_integral(tables), exact, 0.02 * exact);
             ang_tables_free(tables);
             ang_transfer_free(t);
@@ -228,7 +258,9 @@ static void spikes_do_not_vanish(void **state) {
         ang_transfer *t = make(p, 6);
         ang_transfer_tables *tables = tabulate(t, 1, 0, 0, 65535, 0);
         double exact = 0.25 * -log1p(-0.5);
-        assert_float_equal(prefix_at(tables, tables->intervals, 0), exact, 1e-9);
+        ang_prefix *prefix = sum_up(t, tables, 0);
+        assert_float_equal(prefix_at(prefix, tables, tables->intervals, 3), exact, 1e-9);
+        ang_prefix_free(prefix);
         assert_float_equal(table_integral(tables), exact, 1e-6);
         ang_tables_free(tables);
         ang_transfer_free(t);
@@ -316,11 +348,15 @@ static void any_function_gives_sound_tables(void **state) {
             float value = tables->entries[e];
             assert_true(isfinite(value) && value >= 0 && (e % 4 == 3 || value <= 1));
         }
+        ang_prefix *prefix = sum_up(t, tables, 0);
         for (int k = 0; k < tables->intervals; k++)
             for (int c = 0; c < 4; c++) {
-                assert_true(prefix_at(tables, k + 1, c) >= prefix_at(tables, k, c));
-                assert_true(isfinite(prefix_at(tables, k + 1, c)));
+                double here = prefix_at(prefix, tables, k, c), next = prefix_at(prefix, tables, k + 1, c);
+                assert_true(next >= here && isfinite(next));
+                if (c == 3)
+                    assert_true(next - here <= prefix->greatest / tables->per_value * (1 + 1e-9) + 1e-12 * next);
             }
+        ang_prefix_free(prefix);
         if (tables->per_value >= 1)
             for (int v = minimum; v <= maximum; v++) {
                 double rgbk[4], exact = ang_transfer_extinction(t, v);
