@@ -97,6 +97,10 @@ static const option_spec table[] = {
                   "envelope: leave out of rays what lies outside its faces, what lies between visible blocks, or both"),
     INTEGER_OPTION("quads", DRAWS, quads, 0, 10000000, "0",
                    "envelope: most faces it may have, coarser cells where there are more; 0: as many as pay"),
+    CHOICE_OPTION(
+        "classification", classification, "auto|midpoint|prefix", "auto",
+        "mode dvr: what shows of a step: the value at its middle, all values between its ends, or whichever the "
+        "transfer function and the data need"),
     FLAG_OPTION("no-skip", 0, DRAWS, no_skip, "draw what is invisible too"),
     TEXT_OPTION("bricks", DRAWS, bricks, "NxNxN", NULL,
                 "slicing: this many bricks along each axis, or as many as cells allow, every visible one drawn; "

@@ -24,7 +24,7 @@ typedef struct ang_options {
     const char *output;
     const char *series, *preset, *method, *mode, *shading, *size, *view, *pan, *projection, *clip, *background;
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
-        *skipping, *cut_plane, *measure, *force, *write_state, *pictures;
+        *skipping, *cut_plane, *measure, *force, *write_state, *pictures, *classification;
     const char *cases;
     double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold, time_limit, max_error,
         max_time; /* NaN where not given and without default */

@@ -62,7 +62,8 @@ static void note_ignored(session *run) {
                  {ANG_TAKES_GRADIENTS, "--gradients"},
                  {ANG_TAKES_ENVELOPE, "--skipping or --quads"},
                  {ANG_TAKES_SEPARATE_PASSES, "--separate-passes"},
-                 {ANG_TAKES_COUNT_SHOWN, "--count-shown"}};
+                 {ANG_TAKES_COUNT_SHOWN, "--count-shown"},
+                 {ANG_TAKES_CLASSIFICATION, "--classification"}};
     unsigned ignored = ang_method_ignores(run->method, &run->picture.render);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (ignored & names[i].takes)

@@ -10,6 +10,10 @@ int lattice_count(float reach) {
 float lattice_length(int i, int count, float reach) {
     return i + 1 < count ? lattice_step : reach - float(count - 1) * lattice_step;
 }
+// Where step i of `count` begins and the one before it ends, mm from the entry.
+float lattice_node(int i, int count, float reach) {
+    return i < count ? float(i) * lattice_step : reach;
+}
 // Where sample i lies, mm from the entry; `piece` is its length.
 float lattice_place(int i, float piece) {
     return float(i) * lattice_step + 0.5 * piece;

@@ -20,6 +20,11 @@ March march_along(Ray ray) {
     return m;
 }
 
+// Where step i begins.
+vec3 march_node(March m, int i) {
+    return m.start + lattice_node(i, m.count, m.reach) * m.direction;
+}
+
 // Where sample i lies, and the mm that it stands for.
 vec3 march_place(March m, int i, out float piece) {
     piece = lattice_length(i, m.count, m.reach);

@@ -9,6 +9,7 @@ vec4 march(Ray ray, out float samples) {
     vec3 colour = vec3(0.0);
     float opacity = 0.0;
     int i = m.begin;
+    StepEnd at = step_end(march_node(m, i));
     while (i < m.end && opacity < termination) {
         vec4 medium;
         vec3 place;
@@ -16,7 +17,7 @@ vec4 march(Ray ray, out float samples) {
         do {
             place = march_place(m, i, piece);
             i++;
-            medium = transfer_at(stored_from(field_at(place)));
+            medium = step_medium(place, march_node(m, i), piece, at);
         } while (medium.a <= 0.0 && i < m.end);
         float added = (1.0 - opacity) * opacity_of(medium.a * piece);
         colour += added * shade(medium.rgb, place, ray.direction_mm, true);

@@ -6,6 +6,7 @@ vec4 pass_value(Path path, int first) {
     vec3 along = along_mm(gl_FragCoord.xy);
     int i = first;
     int end = min(first + pass_steps, path.count);
+    StepEnd at = step_end(node_place(path, first));
     while (i < end) {
         vec4 medium;
         vec3 place;
@@ -13,7 +14,7 @@ vec4 pass_value(Path path, int first) {
         do {
             piece = lattice_length(i, path.count, path.reach);
             place = path.start + lattice_place(i, piece) * path.direction;
-            medium = transfer_at(stored_from(field_at(place)));
+            medium = step_medium(place, node_place(path, i + 1), piece, at);
             i++;
         } while (!(medium.a > 0.0) && i < end);
         bool shows = medium.a > 0.0;

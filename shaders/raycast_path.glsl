@@ -5,3 +5,8 @@ struct Path {
     float reach;    // mm in the clip box
     int count;      // samples
 };
+
+// Where step i begins.
+vec3 node_place(Path path, int i) {
+    return path.start + lattice_node(i, path.count, path.reach) * path.direction;
+}

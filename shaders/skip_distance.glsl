@@ -12,12 +12,14 @@ vec3 skip_rate(vec3 direction) {
 }
 
 // Steps from the sample at `place` to the first that may show something; 0 where this one may. A sample that lies a
-// thousandth of a step before another block is asked again.
+// thousandth of a step before another block is asked again. Where steps count as a whole, `place` is where one begins,
+// and those are passed over that also end among invisible blocks.
 int skip_steps(vec3 place, vec3 rate) {
     vec3 at = place * skip_scale + skip_offset;
     vec3 block = floor(at);
     float clear = float(texelFetch(skip_grid, ivec3(clamp(block, vec3(0.0), skip_last)), 0).r);
     // To the faces of the cube of invisible blocks: the far one along each axis.
     vec3 exits = (block - at + vec3(lessThan(rate, vec3(0.0)))) * rate + clear * abs(rate);
-    return clear > 0.0 ? max(1, int(ceil(min(min(exits.x, exits.y), exits.z) - 1e-3))) : 0;
+    float exit = min(min(exits.x, exits.y), exits.z) - 1e-3;
+    return clear > 0.0 ? (step_whole ? max(0, int(floor(exit))) : max(1, int(ceil(exit)))) : 0;
 }

@@ -1,6 +1,9 @@
 // Emission and absorption of one slab, premultiplied, for blending.
 vec4 slice_value(vec2 pixel, Slab slab) {
-    vec4 medium = transfer_at(stored_from(field_at(slab.place)));
+    // Half-way to the planes on both sides.
+    vec3 half_way = slice_half_way(pixel);
+    StepEnd at = step_end(slab.first ? slab.before : slab.place - half_way);
+    vec4 medium = step_medium(slab.place, slab.last ? slab.beyond : slab.place + half_way, slab.length, at);
     float opacity = opacity_of(medium.a * slab.length);
     return vec4(opacity * shade(medium.rgb, slab.place, slice_along_mm(pixel), opacity > 0.0), opacity);
 }

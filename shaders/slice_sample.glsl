@@ -23,6 +23,12 @@ vec3 slice_place(int plane, vec3 across) {
     return place;
 }
 
+// Half of what a ray moves from plane to plane.
+vec3 slice_half_way(vec2 pixel) {
+    float moved = 0.5 * slice_distance * slice_inverse_reference;
+    return moved * (ray_from_eye + ray_spread * slice_across(pixel));
+}
+
 bool slice_in_box(vec3 place) {
     return all(greaterThanEqual(place, box_lower)) && all(lessThanEqual(place, box_upper));
 }

@@ -38,6 +38,7 @@ typedef struct pictures {
     ang_renderer *renderer;
     const ang_render_options *options;
     const ang_progress *progress;
+    ang_classify classification; /* that of the picture itself, with finer steps too */
     int drawn;
     ang_image image[PICTURES];
     double step_mm[PICTURES];
@@ -54,12 +55,14 @@ static bool draw(pictures *p, const ang_scene *scene, double finer, bool manual_
     ang_image *image = &p->image[p->drawn];
     ang_render_options options = *p->options;
     options.step_voxels /= finer;
+    options.classification = p->classification;
     options.manual_filter = options.manual_filter || manual_filter;
     options.show_bricks = false;
     ang_frame_stats stats = {0};
     const ang_progress progress = {update, p};
     bool done = ang_image_create(image, scene->width, scene->height, err) &&
                 p->method->render(p->renderer, scene, &options, image, &stats, &progress, err);
+    if (p->classification == ANG_CLASSIFY_AUTO) p->classification = stats.classification;
     p->step_mm[p->drawn++] = stats.step_mm;
     return done;
 }
@@ -125,7 +128,11 @@ bool ang_error_estimate_make(const ang_method *method, ang_renderer *renderer, c
     }
     double start = ang_now_ms();
     ang_scene subset = ang_error_subset(scene);
-    pictures p = {.method = method, .renderer = renderer, .options = options, .progress = progress};
+    pictures p = {.method = method,
+                  .renderer = renderer,
+                  .options = options,
+                  .progress = progress,
+                  .classification = options->classification};
     double bound = ang_error_termination_bound(method, scene, options->termination);
     bool done = draw_all(&p, &subset, err) && gather(&p, bound, out, err);
     for (int i = 0; i < PICTURES; i++) ang_image_clear(&p.image[i]);

@@ -126,6 +126,8 @@ static const char *why_skip_nothing(const ang_plan_facts *facts) {
     if (facts->mode == ANG_MODE_MEAN) return "every value counts in a mean";
     if (facts->drawing == ANG_DRAW_SLICES && is_surface(facts) && facts->apron > facts->most_apron)
         return "the planes are so far apart that a hit may lie blocks before its plane";
+    if (facts->drawing == ANG_DRAW_SLICES && facts->whole_steps && facts->apron > facts->most_apron)
+        return "the planes are so far apart that what they show may lie blocks away";
     return NULL;
 }
 
@@ -170,7 +172,8 @@ static ang_decision decide_border(const ang_plan_facts *facts) {
 static ang_decision decide_slabs(const ang_plan_facts *facts, const ang_decision *skipping) {
     if (facts->drawing == ANG_DRAW_REFERENCE) return no_place("nothing is uploaded");
     bool skips = skipping->used && !skipping->why;
-    if (!facts->texture_shared || !skips || !(facts->share_uploaded < 1)) return needed();
+    /* A step is classified by the values at its ends, which may lie among what does not show. */
+    if (!facts->texture_shared || facts->whole_steps || !skips || !(facts->share_uploaded < 1)) return needed();
     ang_decision slabs = spared(facts, ANG_PART_SLABS, "nothing in them shows");
     slabs.share = 1 - facts->share_uploaded;
     return slabs;
@@ -182,6 +185,8 @@ static ang_decision decide_gradient_texture(const ang_plan_facts *facts, const a
     if (facts->mode != ANG_MODE_DVR || !facts->phong) return no_place("nothing is shaded");
     if (facts->manual_filter) return no_place("--manual-filter");
     if (facts->gradients == ANG_GRADIENTS_LOOKUPS) return no_place("--gradients lookups");
+    if (facts->whole_steps)
+        return no_place("it is made for visible blocks alone, and steps are classified by values beyond them");
     if (!skipping->used || skipping->why) return no_place("rays do not skip, and it is made for visible blocks alone");
     if (facts->memory > 0 && facts->gradient_bytes + facts->bytes > facts->memory)
         return no_place("--gpu-memory does not hold it");

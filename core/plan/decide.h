@@ -62,6 +62,7 @@ typedef struct ang_plan_facts {
     /* transfer function, where the mode looks it up */
     bool jumps;        /* at some value */
     bool one_colour;   /* whatever shows has the same one */
+    bool whole_steps;  /* dvr: steps are classified by all values between their ends */
     double extinction; /* the greatest, per mm */
     /* volume and camera */
     double longest_mm;   /* that any ray has in the clip box, at most */

@@ -267,7 +267,7 @@ const ang_method ang_method_envelope = {
     .source = "Haferburg, Object order empty space skipping in OpenGL 4",
     .needs_gl = true,
     .takes = ANG_TAKES_COUNT_SHOWN | ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP |
-             ANG_TAKES_GRADIENTS | ANG_TAKES_ENVELOPE | ANG_TAKES_GPU_MEMORY,
+             ANG_TAKES_GRADIENTS | ANG_TAKES_ENVELOPE | ANG_TAKES_GPU_MEMORY | ANG_TAKES_CLASSIFICATION,
     .create = create,
     .render = render,
     .explain = explain,

@@ -3,6 +3,7 @@
 #define ANG_RENDER_METHOD_H
 
 #include "core/base/progress.h"
+#include "core/plan/classification.h"
 #include "core/plan/decide.h"
 #include "core/proxy/proxy.h"
 #include "core/scene/image.h"
@@ -25,13 +26,15 @@ typedef struct ang_render_options {
                              do */
     bool show_bricks;     /* slicing: draw the edges of the boxes onto the picture; default false */
     size_t gpu_memory;    /* bytes of textures that the volume may take; default 0: what OpenGL gives */
-    ang_gradients gradients; /* envelope: where Phong's come from; default: as it pays */
-    ang_skipping skipping;   /* envelope; default both */
-    int quads;               /* envelope: most faces; default 0: as many as pay */
-    bool count_shown;        /* singlepass, envelope in mode dvr without shading by lookups: count only samples that
-                                show, the fewest that any method could take; default false */
-    unsigned forced;         /* bits 1 << ang_part: used although the plan would leave them out; default 0 */
-    int threads;             /* 0: all */
+    ang_gradients gradients;     /* envelope: where Phong's come from; default: as it pays */
+    ang_skipping skipping;       /* envelope; default both */
+    int quads;                   /* envelope: most faces; default 0: as many as pay */
+    bool count_shown;            /* singlepass, envelope in mode dvr without shading by lookups: count only samples that
+                                    show, the fewest that any method could take; default false */
+    unsigned forced;             /* bits 1 << ang_part: used although the plan would leave them out; default 0 */
+    int threads;                 /* 0: all */
+    ang_classify classification; /* dvr: of a step by its middle or by all values between its ends; default: as the data
+                                    need it */
 } ang_render_options;
 extern const ang_render_options ang_render_options_default;
 
@@ -46,6 +49,7 @@ typedef struct ang_frame_stats {
     uint64_t boxes;              /* slicing: what those drawn are joined to */
     uint64_t polygons;           /* slicing: polygons sent to OpenGL */
     int passes;                  /* times that the picture's pixels were gone over */
+    ang_classify classification; /* dvr: what was taken; else auto */
     uint64_t bricks_uploaded;    /* textures filled for this frame */
     double octree_ms, upload_ms; /* part of the frame's time that went into these */
     const char *note;            /* a sentence for the user, or NULL; valid until the renderer\'s next call */
@@ -64,7 +68,8 @@ typedef enum ang_method_takes {
     ANG_TAKES_GRADIENTS = 256,
     ANG_TAKES_ENVELOPE = 512, /* skipping and quads */
     ANG_TAKES_SEPARATE_PASSES = 1024,
-    ANG_TAKES_COUNT_SHOWN = 2048
+    ANG_TAKES_COUNT_SHOWN = 2048,
+    ANG_TAKES_CLASSIFICATION = 4096
 } ang_method_takes;
 
 typedef struct ang_gl ang_gl;             /* core/render/context.h */

@@ -32,6 +32,7 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
     if (options->gradients) given |= ANG_TAKES_GRADIENTS;
     if (options->skipping || options->quads) given |= ANG_TAKES_ENVELOPE;
     if (options->count_shown) given |= ANG_TAKES_COUNT_SHOWN;
+    if (options->classification) given |= ANG_TAKES_CLASSIFICATION;
     return given & ~method->takes;
 }
 

@@ -76,8 +76,10 @@ static ang_shader_source compose(const ang_ray_pass *pass, const ang_scene *scen
     ANG_SHADER_ADD(&source, lattice);
     ang_parts_field(&source, kind);
     ang_parts_classification(&source, scene, kind, limits->decisions);
+    ang_parts_steps(&source, scene, &pass->table);
     limits->parts(limits->context, &source);
-    ang_parts_march(&source, scene, volume, kind, limits->decisions, may_seek(volume, options), options->count_shown);
+    ang_parts_march(&source, scene, volume, kind, &pass->table, limits->decisions, may_seek(volume, options),
+                    options->count_shown);
     if (counting)
         ANG_SHADER_ADD(&source, picture_counted);
     else
@@ -100,6 +102,10 @@ bool ang_ray_pass_prepare(ang_ray_pass *pass, const ang_scene *scene, const ang_
     if (!ang_scene_check(scene, err) || !ang_ray_frame_make(pass->volume, scene, frame, err)) return false;
     if (ang_scene_needs_table(scene) &&
         !ang_table_texture_update(&pass->table, pass->gl, scene->transfer, pass->volume, err))
+        return false;
+    if (scene->mode == ANG_MODE_DVR &&
+        !ang_table_texture_classify(&pass->table, pass->gl, scene->transfer, pass->volume, options->classification,
+                                    ang_ray_step(pass->volume, options), err))
         return false;
     if (!ang_limit_texture_update(&pass->limits, pass->gl, pass->volume, scene, frame, options->threads, err))
         return false;
@@ -164,6 +170,8 @@ bool ang_ray_pass_draw(ang_ray_pass *pass, const ang_scene *scene, const ang_ren
         !ang_target_resize(&pass->target, pass->gl, scene->width, scene->height, stats ? ANG_TARGET_COUNTS : 0, err))
         return false;
     if (stats) stats->step_mm = ang_ray_step(pass->volume, options);
+    if (stats) stats->note = ang_ray_pass_note(pass, scene);
+    if (stats) stats->classification = ang_scene_classification(scene, &pass->table);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->target.framebuffer);
     glViewport(0, 0, pass->target.width, pass->target.height);
     glDisable(GL_BLEND);
@@ -182,12 +190,19 @@ bool ang_ray_pass_draw(ang_ray_pass *pass, const ang_scene *scene, const ang_ren
     return ok && ang_gl_check(pass->gl, err);
 }
 
+const char *ang_ray_pass_note(const ang_ray_pass *pass, const ang_scene *scene) {
+    return scene->mode == ANG_MODE_DVR && pass->table.classification.may_miss ? pass->table.classification.warning
+                                                                              : NULL;
+}
+
 void ang_ray_pass_explain(const ang_ray_pass *pass, const ang_scene *scene, const ang_render_options *options,
                           const ang_ray_limits *limits, ang_plan *plan) {
     ang_plan_use(plan, "one 3D texture of 16 bits for the whole volume");
     ang_scene_explain(plan, scene, pass->volume, limits->decisions);
+    ang_scene_explain_steps(plan, scene, &pass->table);
     ang_shader_source vertex = compose_vertex();
     ang_shader_source fragment = compose(pass, scene, options, limits, false);
     ang_shader_explain(plan, "rays", &vertex, &fragment,
-                       limits->gradients ? 2 : ang_scene_lookups(scene, pass->volume));
+                       (limits->gradients ? 2 : ang_scene_lookups(scene, pass->volume)) +
+                           ang_scene_step_lookups(scene, &pass->table, false));
 }

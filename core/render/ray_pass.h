@@ -56,6 +56,9 @@ bool ang_ray_pass_draw(ang_ray_pass *pass, const ang_scene *scene, const ang_ren
 void ang_ray_pass_explain(const ang_ray_pass *pass, const ang_scene *scene, const ang_render_options *options,
                           const ang_ray_limits *limits, ang_plan *plan);
 
+/* ang_frame_stats' note for this scene after ang_ray_pass_prepare, or NULL. */
+const char *ang_ray_pass_note(const ang_ray_pass *pass, const ang_scene *scene);
+
 /* Millimetres between samples. */
 double ang_ray_step(const ang_volume *volume, const ang_render_options *options);
 

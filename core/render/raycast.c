@@ -314,6 +314,8 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     done.bricks_drawn = r.skips ? renderer->blocks.shown : 1;
     done.octree_ms = renderer->blocks.build_ms;
     done.upload_ms = r.upload_ms;
+    done.note = ang_ray_pass_note(&renderer->pass, scene);
+    done.classification = ang_scene_classification(scene, &renderer->pass.table);
     if (stats) *stats = done;
     return ang_gl_check(renderer->pass.gl, err);
 }
@@ -324,7 +326,7 @@ const ang_method ang_method_raycast = {
     .source = "Krueger & Westermann, Acceleration Techniques for GPU-based Volume Rendering, IEEE Visualization 2003",
     .needs_gl = true,
     .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_PASS_STEPS |
-             ANG_TAKES_SEPARATE_PASSES | ANG_TAKES_GPU_MEMORY,
+             ANG_TAKES_SEPARATE_PASSES | ANG_TAKES_GPU_MEMORY | ANG_TAKES_CLASSIFICATION,
     .create = create,
     .render = render,
     .explain = ang_raycast_explain,

@@ -132,6 +132,7 @@ bool ang_raycast_explain(ang_renderer *renderer, const ang_scene *scene, const a
     if (!ang_raycast_decide(renderer, scene, options, &r, err)) return false;
     ang_plan_use(plan, "one 3D texture of 16 bits for the whole volume");
     ang_scene_explain(plan, scene, renderer->pass.volume, &r.plan);
+    ang_scene_explain_steps(plan, scene, &renderer->pass.table);
     ang_plan_use(plan, "up to %d main passes of %d lookups along every ray", r.passes, r.steps);
     explain_skipping(renderer, &r, plan);
     if (r.terminates)

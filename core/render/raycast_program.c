@@ -35,9 +35,17 @@ static void add_path(ang_shader_source *source, const ang_raycast *r, bool fetch
     add_lookups(source, r);
 }
 
-static void add_wake(ang_shader_source *source, const ang_raycast *r) {
+static void add_blocks(ang_shader_source *source, const ang_renderer *renderer, const ang_raycast *r) {
+    ANG_SHADER_ADD(source, raycast_blocks);
+    if (ang_scene_whole_steps(r->scene, &renderer->pass.table))
+        ANG_SHADER_ADD(source, raycast_next_step);
+    else
+        ANG_SHADER_ADD(source, raycast_next_lookup);
+}
+
+static void add_wake(ang_shader_source *source, const ang_renderer *renderer, const ang_raycast *r) {
     if (r->joined) {
-        ANG_SHADER_ADD(source, raycast_blocks);
+        add_blocks(source, renderer, r);
         ANG_SHADER_ADD(source, raycast_wake);
     } else {
         ANG_SHADER_ADD(source, raycast_wake_none);
@@ -59,7 +67,7 @@ static void add_value(ang_shader_source *source, const ang_renderer *renderer, c
     switch (scene->mode) {
     case ANG_MODE_DVR:
         ang_parts_classification(source, scene, kind, &r->plan);
-        ang_parts_opacity(source, &r->plan);
+        ang_parts_medium(source, &renderer->pass.table, &r->plan);
         if (ang_plan_uses(&r->plan, ANG_PART_GRADIENTS)) {
             ANG_SHADER_ADD(source, raycast_along);
             ANG_SHADER_ADD(source, raycast_dvr_seek);
@@ -84,14 +92,14 @@ static void add_value(ang_shader_source *source, const ang_renderer *renderer, c
     }
 }
 
-static void compose_rays(ang_shader_source *source, const ang_raycast *r) {
+static void compose_rays(ang_shader_source *source, const ang_renderer *renderer, const ang_raycast *r) {
     ang_parts_ray(source, r->scene, true);
     add_path(source, r, false);
     if (ang_plan_uses(&r->plan, ANG_PART_DIRECTIONS))
         ANG_SHADER_ADD(source, raycast_keep);
     else
         ANG_SHADER_ADD(source, raycast_keep_parallel);
-    add_wake(source, r);
+    add_wake(source, renderer, r);
     ANG_SHADER_ADD(source, raycast_rays);
 }
 
@@ -100,7 +108,7 @@ static void compose_main(ang_shader_source *source, const ang_renderer *renderer
     if (ang_plan_uses(&r->plan, ANG_PART_GRADIENTS) && r->scene->mode == ANG_MODE_DVR)
         ang_parts_ray(source, r->scene, false);
     add_path(source, r, true);
-    add_wake(source, r);
+    add_wake(source, renderer, r);
     add_value(source, renderer, r);
     add_counting(source, counting);
     ANG_SHADER_ADD(source, raycast_main);
@@ -121,13 +129,13 @@ static void compose_finish(ang_shader_source *source, const ang_raycast *r) {
     ANG_SHADER_ADD(source, raycast_finish);
 }
 
-static void compose_empty(ang_shader_source *source, const ang_raycast *r) {
+static void compose_empty(ang_shader_source *source, const ang_renderer *renderer, const ang_raycast *r) {
     if (r->joined) {
         ANG_SHADER_ADD(source, raycast_empty_joined);
         return;
     }
     add_path(source, r, true);
-    ANG_SHADER_ADD(source, raycast_blocks);
+    add_blocks(source, renderer, r);
     ANG_SHADER_ADD(source, raycast_empty);
 }
 
@@ -161,7 +169,7 @@ static sources compose(const ang_renderer *renderer, const ang_raycast *r, ang_r
         ANG_SHADER_ADD(&to.vertex, triangle);
     switch (pass) {
     case ANG_RAYCAST_RAYS:
-        compose_rays(&to.fragment, r);
+        compose_rays(&to.fragment, renderer, r);
         break;
     case ANG_RAYCAST_MAIN:
         compose_main(&to.fragment, renderer, r, counting);
@@ -170,7 +178,7 @@ static sources compose(const ang_renderer *renderer, const ang_raycast *r, ang_r
         compose_finish(&to.fragment, r);
         break;
     case ANG_RAYCAST_EMPTY:
-        compose_empty(&to.fragment, r);
+        compose_empty(&to.fragment, renderer, r);
         break;
     case ANG_RAYCAST_RESOLVE:
     case ANG_RAYCAST_PASSES:
@@ -230,7 +238,9 @@ void ang_raycast_explain_pass(const ang_renderer *renderer, const ang_raycast *r
     bool surface = r->scene->mode == ANG_MODE_ISO;
     sources made = compose(renderer, r, pass, false);
     int lookups = 0;
-    if (pass == ANG_RAYCAST_MAIN) lookups = ang_scene_lookups(r->scene, renderer->pass.volume);
+    if (pass == ANG_RAYCAST_MAIN)
+        lookups = ang_scene_lookups(r->scene, renderer->pass.volume) +
+                  ang_scene_step_lookups(r->scene, &renderer->pass.table, false);
     if (pass == ANG_RAYCAST_FINISH) lookups = r->joined || !r->terminates ? 1 : 2;
     if (pass == ANG_RAYCAST_EMPTY) lookups = r->joined ? 1 : 2;
     if (pass == ANG_RAYCAST_RESOLVE) lookups = surface ? 7 : 1;

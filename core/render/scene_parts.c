@@ -15,11 +15,40 @@ bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume) {
     return scene->mode == ANG_MODE_MEAN && volume->padding;
 }
 
+bool ang_scene_whole_steps(const ang_scene *scene, const ang_table_texture *table) {
+    return scene->mode == ANG_MODE_DVR && table->classification.prefix;
+}
+
+ang_classify ang_scene_classification(const ang_scene *scene, const ang_table_texture *table) {
+    if (scene->mode != ANG_MODE_DVR) return ANG_CLASSIFY_AUTO;
+    return table->classification.prefix ? ANG_CLASSIFY_PREFIX : ANG_CLASSIFY_MIDPOINT;
+}
+
 int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume) {
     /* Of an iso-surface table and gradient are looked up at the hit alone. The table's two neighbouring entries count
      * as one lookup, as the papers count theirs, which the texture unit interpolated. */
     if (scene->mode == ANG_MODE_ISO) return 1;
     return 1 + ang_scene_needs_table(scene) + 6 * ang_scene_needs_phong(scene) + ang_scene_needs_weight(scene, volume);
+}
+
+int ang_scene_step_lookups(const ang_scene *scene, const ang_table_texture *table, bool both_ends) {
+    if (!ang_scene_whole_steps(scene, table)) return 0;
+    /* The plateau's place, and its entries. */
+    return 2 + (table->prefix.plateaus.texture ? 2 : 0) + (both_ends ? 2 : 0);
+}
+
+void ang_scene_explain_steps(ang_plan *plan, const ang_scene *scene, const ang_table_texture *table) {
+    const char *why = table->classification.why;
+    if (scene->mode != ANG_MODE_DVR) return;
+    if (!table->classification.prefix) {
+        ang_plan_use(plan, "mid-point classification");
+        ang_plan_leave_out(plan, "prefix-integrated classification", "%s%s", why,
+                           table->classification.may_miss ? ", though a peak may be missed" : "");
+        return;
+    }
+    ang_plan_use(plan, "prefix-integrated classification: %s", why);
+    if (!table->prefix.plateaus.texture)
+        ang_plan_leave_out(plan, "plateaus at opacity 1", "the transfer function has none");
 }
 
 void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume,
@@ -75,12 +104,28 @@ void ang_parts_classification(ang_shader_source *source, const ang_scene *scene,
     }
 }
 
-void ang_parts_opacity(ang_shader_source *source, const ang_plan_decisions *decisions) {
+void ang_parts_steps(ang_shader_source *source, const ang_scene *scene, const ang_table_texture *table) {
+    if (ang_scene_whole_steps(scene, table))
+        ANG_SHADER_ADD(source, step_whole);
+    else
+        ANG_SHADER_ADD(source, step_middle);
+}
+
+void ang_parts_medium(ang_shader_source *source, const ang_table_texture *table, const ang_plan_decisions *decisions) {
     ANG_SHADER_ADD(source, opacity_series);
     if (ang_plan_uses(decisions, ANG_PART_EXPONENTIAL))
         ANG_SHADER_ADD(source, opacity_any);
     else
         ANG_SHADER_ADD(source, opacity_thin);
+    if (!table->classification.prefix) {
+        ANG_SHADER_ADD(source, classify_midpoint);
+        return;
+    }
+    ANG_SHADER_ADD(source, classify_prefix);
+    if (table->prefix.plateaus.texture)
+        ANG_SHADER_ADD(source, prefix_plateaus);
+    else
+        ANG_SHADER_ADD(source, prefix_smooth);
 }
 
 void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume,
@@ -102,7 +147,8 @@ static void add_march_dvr(ang_shader_source *source, bool count_shown) {
 }
 
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
-                     const ang_plan_decisions *decisions, bool seeks, bool count_shown) {
+                     const ang_table_texture *table, const ang_plan_decisions *decisions, bool seeks,
+                     bool count_shown) {
     ANG_SHADER_ADD(source, march);
     if (kind == ANG_FIELD_GRADIENTS)
         ANG_SHADER_ADD(source, march_single);
@@ -110,7 +156,7 @@ void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const an
         ANG_SHADER_ADD(source, march_pairs);
     switch (scene->mode) {
     case ANG_MODE_DVR:
-        ang_parts_opacity(source, decisions);
+        ang_parts_medium(source, table, decisions);
         if (ang_scene_needs_phong(scene) && seeks && !ang_plan_uses(decisions, ANG_PART_SKIPPING))
             ANG_SHADER_ADD(source, march_dvr_seek);
         else
@@ -219,6 +265,8 @@ void ang_uniforms_scene(unsigned program, const ang_scene *scene, const ang_volu
         ang_table_texture_bind(table, program, ANG_UNIT_TABLE, ANG_UNIT_EXTINCTION);
     else
         set_window(program, volume, scene);
+    if (scene->mode == ANG_MODE_DVR && table->classification.prefix)
+        ang_prefix_texture_bind(&table->prefix, program, ANG_UNIT_PREFIX);
     if (ang_scene_needs_table(scene)) set_phong(program, volume, scene, frame);
     if (scene->mode == ANG_MODE_MEAN) set_mean(program, volume, scene);
     if (scene->mode == ANG_MODE_ISO) set_iso(program, volume, scene);

@@ -11,18 +11,37 @@
 #include "core/scene/scene.h"
 
 /* The texture units that the parts read from; methods take further ones from ANG_UNIT_FREE on. */
-enum { ANG_UNIT_TABLE, ANG_UNIT_EXTINCTION, ANG_UNIT_FIELD, ANG_UNIT_WEIGHT, ANG_UNIT_LIMIT, ANG_UNIT_FREE };
+enum {
+    ANG_UNIT_TABLE,
+    ANG_UNIT_EXTINCTION,
+    ANG_UNIT_FIELD,
+    ANG_UNIT_WEIGHT,
+    ANG_UNIT_LIMIT,
+    ANG_UNIT_PREFIX,
+    ANG_UNIT_PLATEAUS,
+    ANG_UNIT_FREE
+};
 
 /* What of a scene costs lookups. */
 bool ang_scene_needs_table(const ang_scene *scene);                            /* dvr, iso */
 bool ang_scene_needs_phong(const ang_scene *scene);                            /* iso, dvr with Phong */
 bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume); /* mean, where there is padding */
+/* Whether steps are classified by all values between their ends (ang_table_texture_classify). */
+bool ang_scene_whole_steps(const ang_scene *scene, const ang_table_texture *table);
+/* How they are in mode dvr; auto in others. */
+ang_classify ang_scene_classification(const ang_scene *scene, const ang_table_texture *table);
 /* Texture lookups of one sample: the field, the table, six for a gradient, the weight. */
 int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume);
+
+/* Lookups that a step takes beyond these where it is classified by the values between its ends: prefix integrals, and
+ * where `both_ends` are looked up the value of the second. */
+int ang_scene_step_lookups(const ang_scene *scene, const ang_table_texture *table, bool both_ends);
 
 /* Adds to the plan what the scene itself takes, whatever the method, and everything that was decided. */
 void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume,
                        const ang_plan_decisions *decisions);
+/* Adds how steps are classified in mode dvr. */
+void ang_scene_explain_steps(ang_plan *plan, const ang_scene *scene, const ang_table_texture *table);
 
 /* Where values and gradients come from. */
 typedef enum ang_field_kind {
@@ -37,14 +56,16 @@ void ang_parts_classification(ang_shader_source *source, const ang_scene *scene,
                               const ang_plan_decisions *decisions);
 void ang_parts_weight(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind);
 
-/* opacity_of: no exponential where no sample is thick enough. */
-void ang_parts_opacity(ang_shader_source *source, const ang_plan_decisions *decisions);
+/* step_whole, which parts that bound rays or skip need before them. */
+void ang_parts_steps(ang_shader_source *source, const ang_scene *scene, const ang_table_texture *table);
+/* Mode dvr: opacity_of, step_end and step_medium; no exponential where no sample is thick enough. */
+void ang_parts_medium(ang_shader_source *source, const ang_table_texture *table, const ang_plan_decisions *decisions);
 
 /* march, the loop along a ray, of the scene's mode, with the parts that it needs beside field and classification; the
  * parts that bound it and that skip (bounds_*.glsl, skip_*.glsl) must be there. `seeks`: whether march_dvr_seek.glsl
  * may take the samples where rays do not skip; `count_shown`: as in ang_render_options. */
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
-                     const ang_plan_decisions *decisions, bool seeks, bool count_shown);
+                     const ang_table_texture *table, const ang_plan_decisions *decisions, bool seeks, bool count_shown);
 
 /* clip_x, clip_y and clip_w of what projects places of index space. */
 void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space);

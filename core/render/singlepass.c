@@ -75,7 +75,8 @@ const ang_method ang_method_singlepass = {
     .title = "one fragment-shader loop over the box, no skipping: the baseline that others are compared with",
     .source = "DESIGN.md, Rendering methods; numerics.md",
     .needs_gl = true,
-    .takes = ANG_TAKES_COUNT_SHOWN | ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_GPU_MEMORY,
+    .takes = ANG_TAKES_COUNT_SHOWN | ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_GPU_MEMORY |
+             ANG_TAKES_CLASSIFICATION,
     .create = create,
     .render = render,
     .explain = explain,

@@ -29,7 +29,7 @@ static void compose_value(ang_shader_source *source, bool faces, const ang_slice
     switch (scene->mode) {
     case ANG_MODE_DVR:
         ang_parts_classification(source, scene, kind, recipe->plan[faces]);
-        ang_parts_opacity(source, recipe->plan[faces]);
+        ang_parts_medium(source, recipe->table, recipe->plan[faces]);
         ANG_SHADER_ADD(source, slice_dvr);
         break;
     case ANG_MODE_MIP:
@@ -121,6 +121,9 @@ void ang_slice_explain_pass(ang_plan *plan, ang_slice_pass pass, const ang_slice
                                         "edges of boxes"};
     sources made = compose(pass, recipe);
     bool slices = pass == ANG_SLICE_INNER || pass == ANG_SLICE_FACES;
-    int lookups = slices ? ang_scene_lookups(recipe->scene, recipe->volume) : pass == ANG_SLICE_EDGES ? 0 : 1;
+    int lookups = pass == ANG_SLICE_EDGES ? 0 : 1;
+    if (slices)
+        lookups = ang_scene_lookups(recipe->scene, recipe->volume) +
+                  ang_scene_step_lookups(recipe->scene, recipe->table, true);
     ang_shader_explain(plan, names[pass], &made.vertex, &made.fragment, lookups);
 }

@@ -5,6 +5,7 @@
 #include "core/plan/plan.h"
 #include "core/render/method.h"
 #include "core/render/program.h"
+#include "core/render/table_texture.h"
 
 /* The passes over a picture. */
 typedef enum ang_slice_pass {
@@ -26,6 +27,7 @@ typedef struct ang_slice_recipe {
     const ang_scene *scene;
     const ang_volume *volume;
     const ang_render_options *options;
+    const ang_table_texture *table;
     const ang_plan_decisions *plan[2]; /* away from the faces, at the faces; early termination: the depth test comes
                                           before the shader */
     bool counting;                     /* a second output counts samples */

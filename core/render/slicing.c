@@ -252,12 +252,15 @@ static void make_note(ang_renderer *renderer, const ang_render_options *options,
     size_t room = sizeof renderer->note;
     int used = 0;
     note[0] = '\0';
+    const ang_classification *steps = &renderer->table.classification;
+    if (s->visibility.mode == ANG_MODE_DVR && steps->may_miss) used = snprintf(note, room, "%s", steps->warning);
     double slant = s->length / (1.01 * s->planes.distance);
     if (slant > 2)
-        used = snprintf(note, room,
-                        "planes lie %.3g mm apart, but rays at the corners of so wide a field of view cross them every "
-                        "%.3g mm: --method singlepass samples all rays alike%s",
-                        s->planes.distance, slant * s->planes.distance, store->whole ? "" : "; ");
+        used +=
+            snprintf(note + used, room - (size_t)used,
+                     "%splanes lie %.3g mm apart, but rays at the corners of so wide a field of view cross them every "
+                     "%.3g mm: --method singlepass samples all rays alike",
+                     used ? "; " : "", s->planes.distance, slant * s->planes.distance);
     bool other = asked[0] != made[0] || asked[1] != made[1] || asked[2] != made[2];
     if (store->whole && asked[0] > 0 && other)
         snprintf(note + used, room - (size_t)used,
@@ -267,10 +270,10 @@ static void make_note(ang_renderer *renderer, const ang_render_options *options,
     if (store->whole) return;
     const ang_octree_level *nodes = &store->octree->level[store->level];
     snprintf(note + used, room - (size_t)used,
-             "the volume is drawn in bricks, since %s: %d x %d x %d of up to %d x %d x %d voxels, %zu held at once, "
+             "%sthe volume is drawn in bricks, since %s: %d x %d x %d of up to %d x %d x %d voxels, %zu held at once, "
              "%llu uploaded for this picture",
-             store->reason, nodes->dims[0], nodes->dims[1], nodes->dims[2], store->dims[0], store->dims[1],
-             store->dims[2], store->slots, (unsigned long long)uploaded);
+             used ? "; " : "", store->reason, nodes->dims[0], nodes->dims[1], nodes->dims[2], store->dims[0],
+             store->dims[1], store->dims[2], store->slots, (unsigned long long)uploaded);
 }
 
 static void sum_up(ang_renderer *renderer, const ang_render_options *options, const ang_slicing *s,
@@ -339,6 +342,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     glDepthMask(GL_TRUE);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     if (!ok) return false;
+    done.classification = ang_scene_classification(scene, &renderer->table);
     sum_up(renderer, options, &s, uploads, &done);
     if (stats) *stats = done;
     return ang_gl_check(renderer->gl, err);
@@ -352,7 +356,7 @@ const ang_method ang_method_slicing = {
         "John & Lucas, MC Slicing for Volume Rendering Applications, ICCS 2005",
     .needs_gl = true,
     .takes = ANG_TAKES_TERMINATION | ANG_TAKES_MANUAL_FILTER | ANG_TAKES_NO_SKIP | ANG_TAKES_PROXY | ANG_TAKES_BRICKS |
-             ANG_TAKES_PASS_STEPS | ANG_TAKES_SHOW_BRICKS | ANG_TAKES_GPU_MEMORY,
+             ANG_TAKES_PASS_STEPS | ANG_TAKES_SHOW_BRICKS | ANG_TAKES_GPU_MEMORY | ANG_TAKES_CLASSIFICATION,
     .create = create,
     .render = render,
     .explain = ang_slicing_explain,

@@ -30,16 +30,22 @@ static double step_length(const ang_scene *scene, const ang_ray_frame *frame, co
     return 1.01 * planes->distance / fmax(least_cosine, 1e-3);
 }
 
-/* Voxels: where a ray moves farther from plane to plane, looking for the hits of an iso-surface between them makes
- * blocks so much larger that leaving out the rest pays no more. */
-enum { MOST_ISO_APRON = 17 };
+/* Voxels: where a ray moves farther from plane to plane, looking for what lies between them makes blocks so much larger
+ * that leaving out the rest pays no more. */
+enum { MOST_APRON = 17 };
+
+/* Voxels around a block that what is shown at its planes may depend on. */
+static int apron_of(const ang_slicing *s) {
+    /* A hit before a plane shows at that plane: what lies a step before it must count as well; of a slab that is
+     * classified as a whole what lies half a step to either side. */
+    bool beyond = s->visibility.mode == ANG_MODE_ISO || s->whole_steps;
+    return 1 + (beyond ? s->needs.reach : 0);
+}
 
 static bool prepare_octree(ang_renderer *renderer, const ang_render_options *options, ang_slicing *s, ang_error *err) {
     const ang_volume *volume = renderer->volume;
-    int leaf[3], apron = 1;
-    /* A hit before a plane shows at that plane: what lies a step before it must count as well. */
-    if (s->visibility.mode == ANG_MODE_ISO) apron += s->needs.reach;
-    if (apron > MOST_ISO_APRON) apron = 1; /* decide_skipping() skips nothing then */
+    int leaf[3], apron = apron_of(s);
+    if (apron > MOST_APRON) apron = 1; /* decide_skipping() skips nothing then */
     for (int axis = 0; axis < 3; axis++) {
         int cells = volume->dims[axis] > 1 ? volume->dims[axis] - 1 : 1, bricks = options->bricks[axis];
         leaf[axis] = bricks > 0 ? (cells + bricks - 1) / bricks : ANG_OCTREE_LEAF;
@@ -60,8 +66,8 @@ static void find_facts(const ang_renderer *renderer, const ang_scene *scene, con
     const ang_octree *octree = renderer->octree;
     s->facts = ang_facts_make(ANG_DRAW_SLICES, renderer->gl, renderer->volume, scene, options, &s->frame,
                               &renderer->table, s->length);
-    s->facts.apron = s->needs.reach + 1;
-    s->facts.most_apron = MOST_ISO_APRON;
+    s->facts.apron = apron_of(s);
+    s->facts.most_apron = MOST_APRON;
     s->facts.all_shows = ang_visibility_of_all(&s->visibility, octree->level[octree->levels - 1].nodes[0]);
 }
 
@@ -115,13 +121,19 @@ bool ang_slicing_decide(ang_renderer *renderer, const ang_scene *scene, const an
         return false;
     s->space = ang_clip_space_make(&s->frame, scene->width, scene->height);
     s->planes = ang_slice_planes_make(&s->frame, options->step_voxels * ang_volume_smallest_spacing(volume));
+    if (scene->mode == ANG_MODE_DVR &&
+        !ang_table_texture_classify(&renderer->table, renderer->gl, scene->transfer, volume, options->classification,
+                                    s->planes.distance, err))
+        return false;
+    s->whole_steps = ang_scene_whole_steps(scene, &renderer->table);
     s->visibility = ang_visibility_make(volume, scene, renderer->table.tables);
     s->needs.weight = ang_scene_needs_weight(scene, volume);
     s->needs.reach = ang_scene_needs_phong(scene);
     s->length = step_length(scene, &s->frame, &s->planes);
     s->margin = ang_facts_margin(&s->frame, s->length);
-    if (scene->mode == ANG_MODE_ISO)
-        s->needs.reach += (int)fmin(ceil(fmax(s->margin.x, fmax(s->margin.y, s->margin.z))), most_reach(volume));
+    /* Voxels from a plane to the next, or half-way there. */
+    double farthest = fmax(s->margin.x, fmax(s->margin.y, s->margin.z)) * (s->whole_steps ? 0.5 : 1);
+    if (scene->mode == ANG_MODE_ISO || s->whole_steps) s->needs.reach += (int)fmin(ceil(farthest), most_reach(volume));
     if (!prepare_octree(renderer, options, s, err) ||
         !ang_brick_store_arrange(&renderer->store, renderer->octree, s->needs, err))
         return false;
@@ -145,7 +157,8 @@ bool ang_slicing_decide(ang_renderer *renderer, const ang_scene *scene, const an
 
 ang_slice_recipe ang_slicing_recipe(const ang_renderer *renderer, const ang_scene *scene,
                                     const ang_render_options *options, const ang_slicing *s, bool counting) {
-    return (ang_slice_recipe){scene, renderer->volume, options, {&s->plan, &s->plan_at_faces}, counting};
+    return (ang_slice_recipe){scene,   renderer->volume, options, &renderer->table, {&s->plan, &s->plan_at_faces},
+                              counting};
 }
 
 static void explain_storage(const ang_renderer *renderer, ang_plan *plan) {
@@ -189,6 +202,7 @@ bool ang_slicing_explain(ang_renderer *renderer, const ang_scene *scene, const a
     explain_storage(renderer, plan);
     explain_boxes(renderer, &s, options, plan);
     ang_scene_explain(plan, scene, renderer->volume, &s.plan);
+    ang_scene_explain_steps(plan, scene, &renderer->table);
     ang_slice_recipe recipe = ang_slicing_recipe(renderer, scene, options, &s, false);
     ang_slice_explain_pass(plan, ANG_SLICE_INNER, &recipe);
     ang_slice_explain_pass(plan, ANG_SLICE_FACES, &recipe);

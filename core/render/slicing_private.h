@@ -25,7 +25,7 @@ struct ang_renderer {
     unsigned vertices;    /* no attributes, but a draw needs one bound */
     unsigned query;       /* counts finished pixels */
     unsigned invocations; /* counts fragments */
-    char note[512];       /* what the user should know */
+    char note[1024];      /* what the user should know */
 };
 
 /* All that is decided about one picture before anything is drawn. */
@@ -42,6 +42,7 @@ typedef struct ang_slicing {
     ang_plan_facts facts;
     ang_plan_decisions plan, plan_at_faces;
     bool skips, finishes; /* what `plan` says, in short */
+    bool whole_steps;     /* ang_scene_whole_steps */
     double octree_ms;
 } ang_slicing;
 

@@ -53,7 +53,8 @@ static bool upload(ang_table_texture *texture, ang_error *err) {
 bool ang_table_texture_update(ang_table_texture *texture, ang_gl *gl, const ang_transfer *transfer,
                               const ang_volume *volume, ang_error *err) {
     if (is_current(texture, transfer)) return true;
-    int limit = ang_gl_max_texture_buffer(gl) / 2;
+    /* Two texels an interval, and two more of prefix integrals. */
+    int limit = ang_gl_max_texture_buffer(gl) / 2 - 1;
     if (limit > 32768) limit = 0;
     /* The range of the volume leaves padding out, but its voxels are interpolated and classified like any other. */
     uint16_t padding = volume->padding_count > 0 ? ang_volume_padding_value(volume) : volume->minimum;
@@ -82,7 +83,27 @@ bool ang_table_texture_update(ang_table_texture *texture, ang_gl *gl, const ang_
     return false;
 }
 
+bool ang_table_texture_classify(ang_table_texture *texture, ang_gl *gl, const ang_transfer *transfer,
+                                const ang_volume *volume, ang_classify wanted, double step, ang_error *err) {
+    if (!texture->measured && wanted != ANG_CLASSIFY_PREFIX) {
+        texture->stiffness = ang_stiffness_of(transfer);
+        ang_stiffness_measure(&texture->stiffness, volume);
+        texture->measured = true;
+    }
+    texture->classification = ang_classification_choose(wanted, &texture->stiffness, step);
+    if (!texture->classification.prefix || texture->prefix.sums.texture) return true;
+    ang_prefix *prefix = ang_prefix_create(texture->tables, transfer, volume->slope, volume->intercept, err);
+    bool made = prefix && ang_prefix_texture_make(&texture->prefix, gl, prefix, err);
+    ang_prefix_free(prefix);
+    return made;
+}
+
+double ang_table_texture_greatest(const ang_table_texture *texture) {
+    return texture->classification.prefix ? fmax(texture->greatest, texture->prefix.greatest) : texture->greatest;
+}
+
 void ang_table_texture_destroy(ang_table_texture *texture) {
+    ang_prefix_texture_destroy(&texture->prefix);
     if (texture->texture) glDeleteTextures(1, &texture->texture);
     if (texture->buffer) glDeleteBuffers(1, &texture->buffer);
     if (texture->extinction_texture) glDeleteTextures(1, &texture->extinction_texture);

@@ -150,6 +150,24 @@ static void what_is_forbidden_cannot_be_forced(void **state) {
 }
 
 /* Forcing a part never changes whether another is needed, as far as those go that change what is computed. */
+/* Steps that are classified by the values at their ends look beyond what shows. */
+static void whole_steps_need_what_lies_around(void **state) {
+    (void)state;
+    ang_plan_facts f = usual(ANG_DRAW_ENVELOPE);
+    f.share_uploaded = 0.3;
+    assert_true(used(&f, ANG_PART_GRADIENT_TEXTURE) && !used(&f, ANG_PART_SLABS));
+    f.whole_steps = true;
+    assert_true(says(&f, ANG_PART_GRADIENT_TEXTURE, "values beyond"));
+    assert_true(used(&f, ANG_PART_SLABS) && used(&f, ANG_PART_SKIPPING));
+    f = usual(ANG_DRAW_SLICES);
+    f.apron = f.most_apron + 1;
+    assert_true(used(&f, ANG_PART_SKIPPING));
+    f.whole_steps = true;
+    assert_true(says(&f, ANG_PART_SKIPPING, "so far apart"));
+    f.apron = f.most_apron;
+    assert_true(used(&f, ANG_PART_SKIPPING));
+}
+
 static void forcing_one_part_leaves_the_others(void **state) {
     (void)state;
     uint64_t random = 5;
@@ -262,13 +280,10 @@ static void boxes_of_blocks_hold_what_is_touched(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_a_scene_needs_is_used),
-        cmocka_unit_test(each_part_is_left_out_for_its_reason),
-        cmocka_unit_test(what_is_forbidden_cannot_be_forced),
-        cmocka_unit_test(forcing_one_part_leaves_the_others),
-        cmocka_unit_test(unknown_facts_speak_for_a_part),
-        cmocka_unit_test(names_are_read_and_refused),
-        cmocka_unit_test(plans_say_what_is_saved),
+        cmocka_unit_test(what_a_scene_needs_is_used),           cmocka_unit_test(each_part_is_left_out_for_its_reason),
+        cmocka_unit_test(what_is_forbidden_cannot_be_forced),   cmocka_unit_test(whole_steps_need_what_lies_around),
+        cmocka_unit_test(forcing_one_part_leaves_the_others),   cmocka_unit_test(unknown_facts_speak_for_a_part),
+        cmocka_unit_test(names_are_read_and_refused),           cmocka_unit_test(plans_say_what_is_saved),
         cmocka_unit_test(boxes_of_blocks_hold_what_is_touched),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
