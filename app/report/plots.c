@@ -123,7 +123,7 @@ static bool put_error(FILE *out, const ang_report *report, int kind) {
     int on_front = put_points(out, report, NULL, kind, front_only, "front", -1);
     if (!put_methods(out, report, kind, error_over_time, rows)) return false;
     fputs("set yrange [*<0.3:*]\nset arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead dashtype 2 linecolor "
-          "'#999999'\nset label 'rounding to 8 bits' at graph 0.99, first 0.5 right offset 0,0.5 textcolor '#777777'\n"
+          "'#999999'\nset label 'rounding to 8 bits' at graph 0.01, first 0.5 left offset 0,-0.6 textcolor '#777777'\n"
           "plot ",
           out);
     if (on_front)
