@@ -280,6 +280,8 @@ bool ang_gui_popup_open(const ang_gui *) {
     return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
+void ang_gui_close_popups(ang_gui *) { ImGui::ClosePopupToLevel(0, false); }
+
 static const ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                              ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                                              ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -328,6 +330,7 @@ void ang_gui_menu_bar_end(ang_gui *) {
 }
 bool ang_gui_menu_begin(ang_gui *, const char *label) { return ImGui::BeginMenu(label); }
 void ang_gui_menu_end(ang_gui *) { ImGui::EndMenu(); }
+void ang_gui_menu_separator(ang_gui *) { ImGui::Separator(); }
 bool ang_gui_menu_item(ang_gui *, const char *label, const char *shortcut, bool checked, bool enabled) {
     return ImGui::MenuItem(label, shortcut, checked, enabled);
 }
@@ -432,7 +435,9 @@ bool ang_gui_text_field(ang_gui *, const char *name, char *text, size_t size, do
 
 bool ang_gui_colour(ang_gui *, const char *name, double colour[3]) {
     float value[3] = {(float)colour[0], (float)colour[1], (float)colour[2]};
-    if (!ImGui::ColorEdit3(name, value, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel)) return false;
+    if (!ImGui::ColorEdit3(name, value,
+                           ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_NoTooltip))
+        return false;
     for (int i = 0; i < 3; i++) colour[i] = std::fmin(std::fmax((double)value[i], 0.0), 1.0);
     return true;
 }

@@ -35,8 +35,10 @@ double ang_gui_px(const ang_gui *gui, double length);
 bool ang_gui_typing(const ang_gui *gui);
 /* Whether a button of the mouse holds a widget: a value is still being changed. */
 bool ang_gui_holding(const ang_gui *gui);
-/* Whether anything that is open (menu, popup) takes Esc for itself. */
+/* Whether a menu, a list or a picker is open. */
 bool ang_gui_popup_open(const ang_gui *gui);
+/* Closes it. */
+void ang_gui_close_popups(ang_gui *gui);
 
 /* A part of the window that does not move, with widgets from top to bottom. `solid`: filled as a panel. To be ended in
  * any case. */
@@ -51,6 +53,7 @@ double ang_gui_menu_bar_begin(ang_gui *gui);
 void ang_gui_menu_bar_end(ang_gui *gui);
 bool ang_gui_menu_begin(ang_gui *gui, const char *label);
 void ang_gui_menu_end(ang_gui *gui);
+void ang_gui_menu_separator(ang_gui *gui);
 bool ang_gui_menu_item(ang_gui *gui, const char *label, const char *shortcut, bool checked, bool enabled);
 
 /* Widgets. Labels end at "##"; what follows only tells widgets of one label apart. `width` 0: what is left. */

@@ -1,5 +1,6 @@
 /* A pane with a slice: its picture, and what the hands do on it. */
 #include "core/base/memory.h"
+#include "core/scene/annotation.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
@@ -109,6 +110,7 @@ static void drag(ang_viewer *viewer, ang_orientation orientation, const ang_canv
 static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame) {
     ang_orientation orientation = (ang_orientation)pane;
     ang_gesture *gesture = &viewer->gesture;
+    ang_vec3 before = gesture->crosshair;
     if (canvas->pressed)
         *gesture = (ang_gesture){.pane = (int)pane,
                                  .before = viewer->document,
@@ -117,6 +119,7 @@ static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, 
     if (canvas->double_clicked) {
         viewer->maximised = viewer->maximised == (int)pane ? -1 : (int)pane;
         gesture->cancelled = true;
+        viewer->crosshair = before; /* the first of the two clicks moved it */
         return;
     }
     bool ours = gesture->pane == (int)pane && !gesture->cancelled;
@@ -151,7 +154,6 @@ static void draw_crosshair(ang_viewer *viewer, ang_pane pane, ang_rect rect, con
 }
 
 static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
-    static const char letters[] = "APL";
     static const char *const names[] = {"Axial", "Coronal", "Sagittal"};
     const ang_document *document = &viewer->document;
     const ang_slice_range *range = &viewer->range[pane];
@@ -160,9 +162,9 @@ static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     ang_pane_corner(viewer, rect, 0, 0, 0, names[pane]);
     ang_pane_corner(viewer, rect, 1, 0, 0, viewer->study.label);
     double along = ang_vec3_dot(viewer->crosshair, range->normal);
-    /* Towards the head, the back and the left is positive. */
-    snprintf(text, sizeof text, "%d / %d   %c %.1f mm", ang_slice_index(range, viewer->crosshair) + 1, range->count,
-             pane == ANG_PANE_AXIAL ? 'H' : letters[pane], along);
+    ang_letters side = ang_letters_make(ang_vec3_scale(range->normal, along < 0 ? -1 : 1));
+    snprintf(text, sizeof text, "%d / %d   %s %.1f mm", ang_slice_index(range, viewer->crosshair) + 1, range->count,
+             side.text, fabs(along));
     ang_pane_corner(viewer, rect, 0, 1, 0, text);
     if (document->slab_mm > 0) {
         snprintf(text, sizeof text, "slab %.1f mm, %s", document->slab_mm, ang_slab_name(document->slab));

@@ -11,6 +11,8 @@
 #include <string.h>
 
 static const double message_seconds = 6;
+/* After the one that an event needs: lists and messages measure themselves in one frame and show in a later one. */
+enum { settling_frames = 2 };
 /* At zoom 1 a picture holds the volume from any side, with much room around it from most. */
 const ang_view ang_viewer_first_view = {.zoom = 1.6, .projection = ANG_PERSPECTIVE, .fov_deg = 30};
 
@@ -382,7 +384,7 @@ static void rest(ang_viewer *viewer) {
         ang_rect rect = viewer->pane[ANG_PANE_VOLUME];
         ang_volume_update(viewer, (int)rect.width, (int)rect.height, true);
     }
-    viewer->redraws = 1;
+    viewer->redraws = settling_frames;
 }
 
 static bool work(ang_viewer *viewer, const ang_viewer_options *options, ang_error *err) {

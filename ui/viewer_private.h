@@ -40,7 +40,7 @@ typedef struct ang_volume_picture {
     ang_document document;  /* that `image` shows */
     int size[2];            /* of the pane that `image` was made for */
     bool shown, refined;    /* there is an image; it is as fine as the pane */
-    double scale;           /* of a coarse picture's sides, 0..1; 0: not known yet */
+    double coarse_pixels;   /* as many as the budget of time allows; 0: not known yet */
     bool warm;              /* a picture has been made by `renderer` */
     double frame_ms;        /* of the last picture */
     double asked_seconds;   /* when what it shows last changed */

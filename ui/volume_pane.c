@@ -54,6 +54,7 @@ static void drag(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
 
 static void handle(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
     ang_gesture *gesture = &viewer->gesture;
+    ang_vec3 before = gesture->crosshair;
     if (canvas->pressed)
         *gesture = (ang_gesture){.pane = ANG_PANE_VOLUME,
                                  .before = viewer->document,
@@ -62,6 +63,7 @@ static void handle(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) 
     if (canvas->double_clicked) {
         viewer->maximised = viewer->maximised == ANG_PANE_VOLUME ? -1 : ANG_PANE_VOLUME;
         gesture->cancelled = true;
+        viewer->crosshair = before; /* the first of the two clicks moved it */
         return;
     }
     bool ours = gesture->pane == ANG_PANE_VOLUME && !gesture->cancelled;

@@ -11,7 +11,7 @@
 
 static const double budget_ms_software = 100, budget_ms_gpu = 33;
 static const double coarse_step = 1; /* smallest spacings; half of that when fine */
-static const double least_scale = 1.0 / 6, first_scale_software = 0.4;
+static const double least_scale = 0.25, first_pixels = 30000;
 static const double rest_seconds = 0.15; /* without a change, before the fine picture is begun */
 
 /* Whether two documents give the same rendering. */
@@ -79,7 +79,6 @@ static bool make_renderer(ang_viewer *viewer, const ang_scene *scene, ang_error 
     ang_gl *gl = ang_window_gl(viewer->window);
     const char *why;
     volume->software = ang_gl_is_software(gl);
-    if (!(volume->scale > 0)) volume->scale = volume->software ? first_scale_software : 1;
     volume->method = volume->choice > 0
                          ? ang_methods()[volume->choice - 1]
                          : ang_method_choose(gl, viewer->study.volume, scene, &ang_render_options_default, &why);
@@ -108,14 +107,21 @@ static bool show(ang_viewer *viewer, const ang_image *image, ang_error *err) {
     return ang_painter_picture(viewer->painter, &volume->texture, image->width, image->height, rgba, true, err);
 }
 
-/* Slower than the budget: fewer pixels the next time; much faster: more, in steps, so that it does not flicker. */
-static void adapt(ang_volume_picture *volume, double milliseconds) {
+/* The share of the pane's sides that a coarse picture has. */
+static double coarse_scale(const ang_volume_picture *volume, int width, int height) {
+    double pixels = volume->coarse_pixels > 0 ? volume->coarse_pixels : first_pixels;
+    double scale = sqrt(pixels / ((double)width * height));
+    /* In steps, so that it does not flicker. */
+    return fmin(fmax(round(scale * 24) / 24, least_scale), 1);
+}
+
+/* Slower than the budget: fewer pixels the next time; much faster: more. */
+static void adapt(ang_volume_picture *volume, double pixels, double milliseconds) {
     double budget = volume->software ? budget_ms_software : budget_ms_gpu;
     if (milliseconds > budget)
-        volume->scale *= fmax(0.95 * sqrt(budget / milliseconds), 0.5);
-    else if (milliseconds < 0.5 * budget)
-        volume->scale *= fmin(sqrt(0.8 * budget / fmax(milliseconds, 0.1)), 1.3);
-    volume->scale = fmin(fmax(round(volume->scale * 24) / 24, least_scale), 1);
+        volume->coarse_pixels = pixels * fmax(0.9 * budget / milliseconds, 0.25);
+    else if (milliseconds < 0.6 * budget)
+        volume->coarse_pixels = pixels * fmin(0.8 * budget / fmax(milliseconds, 0.1), 1.7);
 }
 
 static bool draw(ang_viewer *viewer, ang_scene *scene, bool fine, ang_image *image, ang_error *err) {
@@ -133,7 +139,7 @@ static bool draw(ang_viewer *viewer, ang_scene *scene, bool fine, ang_image *ima
     volume->warm = true;
     volume->frame_ms = ang_now_ms() - start;
     /* The first picture makes textures and programs too: that says nothing of the next. */
-    if (!fine && !first) adapt(volume, volume->frame_ms);
+    if (!fine && !first) adapt(volume, (double)image->width * image->height, volume->frame_ms);
     return true;
 }
 
@@ -148,7 +154,7 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     if (!current) volume->asked_seconds = ang_now_ms() / 1000;
     ang_error err = {0};
     ang_transfer *transfer = ang_document_transfer(&viewer->document, &err);
-    double scale = refine ? 1 : volume->scale > 0 ? volume->scale : first_scale_software;
+    double scale = refine ? 1 : coarse_scale(volume, width, height);
     ang_scene scene = ang_volume_scene(viewer, transfer, scaled(width, scale), scaled(height, scale));
     ang_image image = {0};
     bool done = transfer && draw(viewer, &scene, refine, &image, &err);

@@ -13,18 +13,27 @@ struct ang_window {
     GLFWwindow *handle;
     ang_gl *gl;
     ang_event_queue queue;
-    double x, y;        /* of the last move: where the pointer was when a button went down */
-    unsigned modifiers; /* ANG_MOD_* */
-    bool damaged;       /* size or contents must be drawn again */
+    double x, y;         /* of the last move: where the pointer was when a button went down */
+    unsigned modifiers;  /* ANG_MOD_* */
+    double asked, heard; /* seconds: when events were last asked for, and when all until then had come */
+    bool damaged;        /* size or contents must be drawn again */
     char *dropped;
     GLFWcursor *cursors[ANG_CURSOR_COUNT];
     ang_cursor cursor;
     int placed[4]; /* x, y, width, height before full screen */
 };
 
+/* Events that came while a picture was made are handed over late and have no time of their own: the earliest that they
+ * may have come, so that two clicks do not fall apart because the frame between them took long. */
+static double earliest(const ang_window *window) {
+    static const double at_once = 0.002;
+    double now = ang_now_ms() / 1000;
+    return now - window->asked > at_once ? now : window->heard;
+}
+
 static void push(ang_window *window, ang_event event) {
     event.modifiers = window->modifiers;
-    event.seconds = ang_now_ms() / 1000;
+    event.seconds = earliest(window);
     ang_event_push(&window->queue, &event);
 }
 
@@ -244,16 +253,18 @@ bool ang_window_input(ang_window *window, ang_input *input) {
 }
 
 void ang_window_wait(ang_window *window, double seconds) {
+    window->asked = ang_now_ms() / 1000;
     if (window->queue.count > 0 || window->damaged || seconds <= 0)
         glfwPollEvents();
     else if (isfinite(seconds))
         glfwWaitEventsTimeout(seconds);
     else
         glfwWaitEvents();
+    window->heard = ang_now_ms() / 1000;
 }
 
 bool ang_window_pending(ang_window *window) {
-    glfwPollEvents();
+    ang_window_wait(window, 0);
     return window->queue.count > 0 || window->damaged || glfwWindowShouldClose(window->handle);
 }
 
