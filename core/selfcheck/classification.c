@@ -12,30 +12,48 @@ static bool open_ramp(ang_stage *stage, ang_bench *bench, ang_bench_field *field
     return true;
 }
 
+/* Draws the ramp with each classification that the method has; the words are for what is measured. */
+typedef bool draw_ramp(ang_stage *stage, const char *words, ang_error *err);
+
+static bool try_ramp(ang_bench *bench, ang_bench_field *field, draw_ramp *draw, ang_error *err) {
+    static const struct {
+        ang_classify classification;
+        const char *words;
+    } ways[] = {{ANG_CLASSIFY_AUTO, ""}, {ANG_CLASSIFY_MIDPOINT, ", mid-point"}, {ANG_CLASSIFY_PREFIX, ", prefix"}};
+    size_t count = bench->method->takes & ANG_TAKES_CLASSIFICATION ? sizeof ways / sizeof *ways : 1;
+    ang_stage stage;
+    bool done = open_ramp(&stage, bench, field, err);
+    for (size_t w = 0; w < count && done; w++) {
+        stage.options = (ang_render_options){
+            .step_voxels = 0.5, .termination = 1, .threads = bench->threads, .classification = ways[w].classification};
+        done = draw(&stage, ways[w].words, err);
+    }
+    ang_stage_close(&stage);
+    return done;
+}
+
+static bool is_prefix(const ang_stage *stage) { return stage->options.classification == ANG_CLASSIFY_PREFIX; }
+
 static const double ramp_steps[] = {2, 1, 0.5, 0.25};
 enum { ramp_step_count = sizeof ramp_steps / sizeof *ramp_steps };
 
 static double constant_error(const ang_stage *stage, const void *rgba) { return ang_stage_constant(stage, rgba); }
 
 /* kappa = a s and c = s / L at depth s: C = int c kappa exp(-a s^2 / 2) ds by parts. */
-static bool draw_ramp(ang_stage *stage, ang_error *err) {
+static bool draw_linear(ang_stage *stage, const char *words, ang_error *err) {
     const double a = 0.004, length = 32;
     const ang_transfer_point points[] = {{.hu = 0, .colour = {0, 0, 0}, .opacity = 0},
                                          {.hu = 10 * length, .colour = {1, 1, 1}, .opacity = a * length}};
     double passed = exp(-a * length * length / 2);
     double colour = sqrt(M_PI / (2 * a)) * erf(length * sqrt(a / 2)) / length - passed;
     const double expected[4] = {colour, colour, colour, 1 - passed};
+    char what[64];
+    snprintf(what, sizeof what, "a linear ramp%s", words);
     return ang_stage_points(stage, points, 2, true, err) &&
-           ang_stage_order(stage, ramp_steps, ramp_step_count, constant_error, expected, 1.9, 2.1, 1e-6,
-                           "a linear ramp", err);
+           ang_stage_order(stage, ramp_steps, ramp_step_count, constant_error, expected, 1.9, 2.1, 1e-6, what, err);
 }
 
-bool ang_case_ramp(ang_bench *bench, ang_error *err) {
-    ang_stage stage;
-    bool done = open_ramp(&stage, bench, ang_field_ramp, err) && draw_ramp(&stage, err);
-    ang_stage_close(&stage);
-    return done;
-}
+bool ang_case_ramp(ang_bench *bench, ang_error *err) { return try_ramp(bench, ang_field_ramp, draw_linear, err); }
 
 static double ramp_15(int x, int y, int z) {
     (void)x, (void)z;
@@ -43,23 +61,36 @@ static double ramp_15(int x, int y, int z) {
 }
 
 /* Two slabs that meet at a third of the way, which no step that halves ever falls on. */
-static bool draw_step(ang_stage *stage, ang_error *err) {
-    const double k[2] = {0.05, 0.2}, depth = 32 / 3., length = 32;
-    const ang_transfer_point points[] = {{.hu = 160, .colour = {1, 0.5, 0}, .opacity = k[0]},
-                                         {.hu = 160, .colour = {0, 0.5, 1}, .opacity = k[1]}};
+static bool draw_slabs(ang_stage *stage, const double back_colour[3], double expected[4], ang_error *err) {
+    const double k[2] = {0.05, 0.2}, depth = 32 / 3., length = 32, *c = ang_bench_colour, *d = back_colour;
+    const ang_transfer_point points[] = {{.hu = 160, .colour = {c[0], c[1], c[2]}, .opacity = k[0]},
+                                         {.hu = 160, .colour = {d[0], d[1], d[2]}, .opacity = k[1]}};
     double front = -expm1(-k[0] * depth), back = -expm1(-k[1] * (length - depth)) * (1 - front);
-    const double expected[4] = {front, 0.5 * (front + back), back, front + back};
-    return ang_stage_points(stage, points, 2, true, err) &&
-           ang_stage_order(stage, ramp_steps, ramp_step_count, constant_error, expected, 0.9, INFINITY, 1e-5,
-                           "a step in the transfer function", err);
+    for (int i = 0; i < 3; i++) expected[i] = front * c[i] + back * d[i];
+    expected[3] = front + back;
+    return ang_stage_points(stage, points, 2, true, err);
 }
 
-bool ang_case_step_transfer(ang_bench *bench, ang_error *err) {
-    ang_stage stage;
-    bool done = open_ramp(&stage, bench, ramp_15, err) && draw_step(&stage, err);
-    ang_stage_close(&stage);
-    return done;
+static bool draw_step(ang_stage *stage, const char *words, ang_error *err) {
+    double expected[4];
+    char what[64];
+    snprintf(what, sizeof what, "a step in the transfer function%s", words);
+    if (!draw_slabs(stage, (const double[3]){1, 0.25, 0}, expected, err) ||
+        !ang_stage_order(stage, ramp_steps, ramp_step_count, constant_error, expected, 0.9, INFINITY, 1e-5, what, err))
+        return false;
+    /* Within a step the prefixes of two colours do not say which comes first; those of one colour are exact. */
+    if (!is_prefix(stage)) return true;
+    if (!draw_slabs(stage, ang_bench_colour, expected, err)) return false;
+    for (int s = 0; s < ramp_step_count; s++) {
+        stage->options.step_voxels = ramp_steps[s];
+        if (!ang_stage_draw(stage, err)) return false;
+        ang_bench_error(stage->bench, ang_stage_constant(stage, expected), 1e-5, "error of %s, step %g voxels", what,
+                        ramp_steps[s]);
+    }
+    return true;
 }
+
+bool ang_case_step_transfer(ang_bench *bench, ang_error *err) { return try_ramp(bench, ramp_15, draw_step, err); }
 
 static double ramp_all(int x, int y, int z) {
     (void)x, (void)z;
@@ -67,7 +98,7 @@ static double ramp_all(int x, int y, int z) {
 }
 
 /* A triangle two stored values wide, of area 1 per mm * HU: the ramp crosses it once, between voxels. */
-static bool draw_spike(ang_stage *stage, ang_error *err) {
+static bool draw_spike(ang_stage *stage, const char *words, ang_error *err) {
     const double hu = 20000, per_mm = ramp_all(0, 11, 0) - ramp_all(0, 10, 0), area = per_mm;
     const ang_transfer_point points[] = {{.hu = hu - 1, .colour = {1, 1, 1}, .opacity = 0},
                                          {.hu = hu, .colour = {1, 1, 1}, .opacity = area},
@@ -76,20 +107,15 @@ static bool draw_spike(ang_stage *stage, ang_error *err) {
     double alpha = -expm1(-area / per_mm);
     const double expected[4] = {alpha, alpha, alpha, alpha};
     double error = ang_stage_constant(stage, expected);
-    if (stage->stats.note && error > 1e-4)
-        ang_bench_error(stage->bench, 0, 1e-4, "missed by %.2g, but it is said: %.60s", error, stage->stats.note);
+    bool warned = stage->stats.note && strstr(stage->stats.note, "missed");
+    if (error > 1e-4 && warned && !is_prefix(stage))
+        ang_bench_error(stage->bench, 0, 1e-4, "a spike missed by %.2g, but it is said%s", error, words);
     else
-        ang_bench_error(stage->bench, error, 1e-4, "error of a spike of 1 in 65536 values%s",
-                        stage->stats.step_mm > 0 ? ", and no warning" : "");
+        ang_bench_error(stage->bench, error, 1e-4, "error of a spike of 1 in 65536 values%s", words);
     return true;
 }
 
-bool ang_case_spike(ang_bench *bench, ang_error *err) {
-    ang_stage stage;
-    bool done = open_ramp(&stage, bench, ramp_all, err) && draw_spike(&stage, err);
-    ang_stage_close(&stage);
-    return done;
-}
+bool ang_case_spike(ang_bench *bench, ang_error *err) { return try_ramp(bench, ramp_all, draw_spike, err); }
 
 /* Air, then a slab at 100 HU, then one at 200 HU behind it. */
 static double slabs(int x, int y, int z) {
@@ -97,7 +123,7 @@ static double slabs(int x, int y, int z) {
     return y < 12 ? 0 : y < 20 ? 100 : 200;
 }
 
-static bool draw_opaque(ang_stage *stage, ang_error *err) {
+static bool draw_opaque(ang_stage *stage, const char *words, ang_error *err) {
     /* Opaque at 100 HU and at 200 HU, nothing between: interpolation from 0 to 100 HU must not reach the first early.
      */
     static const ang_transfer_point points[] = {
@@ -109,18 +135,13 @@ static bool draw_opaque(ang_stage *stage, ang_error *err) {
     for (size_t s = 0; s < sizeof steps / sizeof *steps; s++) {
         stage->options.step_voxels = steps[s];
         if (!ang_stage_draw(stage, err)) return false;
-        ang_bench_error(stage->bench, ang_stage_constant(stage, expected), 0, "error of the first hit, step %g voxels",
-                        steps[s]);
+        ang_bench_error(stage->bench, ang_stage_constant(stage, expected), 0,
+                        "error of the first hit, step %g voxels%s", steps[s], words);
     }
     return true;
 }
 
-bool ang_case_opaque(ang_bench *bench, ang_error *err) {
-    ang_stage stage;
-    bool done = open_ramp(&stage, bench, slabs, err) && draw_opaque(&stage, err);
-    ang_stage_close(&stage);
-    return done;
-}
+bool ang_case_opaque(ang_bench *bench, ang_error *err) { return try_ramp(bench, slabs, draw_opaque, err); }
 
 enum { side = 256 };
 

@@ -54,6 +54,17 @@ static void obey_badly(const ang_render_options *options, ang_image *image) {
     if (options->termination > 0.99 && options->termination < 1) pixel[3] *= 0.99F;
 }
 
+/* Wrong in the last digits where it should integrate over steps. */
+static void integrate_badly(const ang_render_options *options, ang_image *image) {
+    if (options->classification != ANG_CLASSIFY_PREFIX) return;
+    for (int i = 0; i < 4 * image->width * image->height; i++) image->rgba[i] *= 0.999F;
+}
+
+static void show_nothing(const ang_render_options *options, ang_image *image) {
+    (void)options;
+    memset(image->rgba, 0, 4 * sizeof(float) * (size_t)image->width * (size_t)image->height);
+}
+
 #define BROKEN(name_, spoil, takes_)                                                                                   \
     static bool render_##spoil(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,      \
                                ang_image *image, ang_frame_stats *stats, const ang_progress *progress,                 \
@@ -69,6 +80,18 @@ BROKEN("hole", punch_hole, 0);
 BROKEN("nan", spoil_one, 0);
 BROKEN("shifted", shift_a_pixel, 0);
 BROKEN("careless", obey_badly, ANG_TAKES_BRICKS | ANG_TAKES_NO_SKIP | ANG_TAKES_TERMINATION);
+
+BROKEN("inexact", integrate_badly, ANG_TAKES_CLASSIFICATION);
+BROKEN("blind", show_nothing, 0);
+
+static bool miss_and_say_so(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                            ang_image *image, ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
+    bool done = draw(renderer, scene, options, image, stats, progress, err, show_nothing);
+    stats->note = "a peak may be missed";
+    return done;
+}
+static const ang_method method_honest = {
+    .name = "honest", .create = create, .render = miss_and_say_so, .destroy = destroy};
 
 static bool fail_to_draw(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
                          ang_image *image, ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
@@ -138,6 +161,12 @@ static void a_careless_method_is_red_where_options_are_compared(void **state) {
     check(&method_obey_badly, options_alone, LENGTH(options_alone), NULL, 0);
 }
 
+static void each_classification_is_checked(void **state) {
+    (void)state;
+    static const int red[] = {3, 4, 5, 6};
+    check(&method_integrate_badly, red, LENGTH(red), options_alone, LENGTH(options_alone));
+}
+
 static ang_verdict verdict_of(const ang_method *method, int number, ang_selfcheck_result *out) {
     const ang_method *const methods[] = {method, NULL};
     ang_selfcheck_options options = {
@@ -159,6 +188,14 @@ static void a_shift_by_a_pixel_is_red(void **state) {
     for (int i = 0; i < LENGTH(red); i++)
         if (verdict_of(&method_shift_a_pixel, red[i], &result) != ANG_VERDICT_RED) fail_msg("case %d", red[i]);
     assert_int_equal(verdict_of(&method_shift_a_pixel, 26, &result), ANG_VERDICT_OK);
+}
+
+static void a_missed_spike_is_red_unless_it_is_said(void **state) {
+    (void)state;
+    ang_selfcheck_result result;
+    assert_int_equal(verdict_of(&method_show_nothing, 5, &result), ANG_VERDICT_RED);
+    assert_int_equal(verdict_of(&method_honest, 5, &result), ANG_VERDICT_OK);
+    assert_int_equal(verdict_of(&method_honest, 4, &result), ANG_VERDICT_RED);
 }
 
 static void a_method_that_fails_is_red_and_says_why(void **state) {
@@ -243,7 +280,9 @@ int main(void) {
         cmocka_unit_test(a_hole_is_red),
         cmocka_unit_test(one_value_that_is_no_number_is_red_wherever_something_is_drawn),
         cmocka_unit_test(a_careless_method_is_red_where_options_are_compared),
+        cmocka_unit_test(each_classification_is_checked),
         cmocka_unit_test(a_shift_by_a_pixel_is_red),
+        cmocka_unit_test(a_missed_spike_is_red_unless_it_is_said),
         cmocka_unit_test(a_method_that_fails_is_red_and_says_why),
         cmocka_unit_test(what_does_not_apply_is_asked_of_the_method),
         cmocka_unit_test(values_are_judged_by_their_range),
