@@ -68,6 +68,14 @@ static void add_switches(ang_report *report, const ang_method *method) {
         run->options.termination = 1;
         snprintf(run->switched, sizeof run->switched, "no termination");
     }
+    for (int kind = ANG_CLASSIFY_MIDPOINT; kind <= ANG_CLASSIFY_PREFIX; kind++) {
+        if (!(method->takes & ANG_TAKES_CLASSIFICATION) || scene->mode != ANG_MODE_DVR) break;
+        if (kind == (int)usual->classification) continue;
+        run = add(report, ANG_REPORT_SWITCHES, method, ang_report_switch_step);
+        run->options.classification = (ang_classify)kind;
+        snprintf(run->switched, sizeof run->switched, "classification %s",
+                 kind == ANG_CLASSIFY_PREFIX ? "prefix" : "mid-point");
+    }
     if (scene->mode == ANG_MODE_DVR) {
         run = add(report, ANG_REPORT_SWITCHES, method, ang_report_switch_step);
         run->shading = scene->shading == ANG_SHADING_PHONG ? ANG_SHADING_NONE : ANG_SHADING_PHONG;
