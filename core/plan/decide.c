@@ -58,6 +58,19 @@ bool ang_parts_parse(const char *list, unsigned *forced, ang_error *err) {
     return true;
 }
 
+ang_drawing ang_plan_drawing(const ang_drawing_facts *facts, const char **why) {
+    *why = "there is no OpenGL";
+    if (!facts->gl) return ANG_DRAW_REFERENCE;
+    *why = "the volume does not fit into one texture";
+    if (!facts->fits) return ANG_DRAW_SLICES;
+    *why = "an option asks for slicing";
+    if (facts->asks_slices) return ANG_DRAW_SLICES;
+    *why = "an option asks for raycast";
+    if (facts->asks_passes) return ANG_DRAW_PASSES;
+    *why = "it takes the fewest samples: rays skip what shows nothing";
+    return ANG_DRAW_ENVELOPE;
+}
+
 /* Used, and not to be left out. */
 static ang_decision needed(void) { return (ang_decision){.used = true, .share = NAN}; }
 

@@ -50,6 +50,17 @@ typedef enum ang_drawing {
     ANG_DRAW_SLICES
 } ang_drawing;
 
+/* What tells which way to draw a picture that may be drawn in any. */
+typedef struct ang_drawing_facts {
+    bool gl;          /* there is OpenGL */
+    bool fits;        /* the volume does, into one texture and the memory that it may take */
+    bool asks_slices; /* options are given that only slicing takes */
+    bool asks_passes; /* or only rays in passes */
+} ang_drawing_facts;
+
+/* The way to draw, where neither an error nor a time is asked for; `why` becomes the reason. Pure. */
+ang_drawing ang_plan_drawing(const ang_drawing_facts *facts, const char **why);
+
 /* What is known of a picture before it is drawn. Plain value. What takes building to be known may be asked later: while
  * `blocks` is 0 it counts in favour of the part, so that a method first learns what it must build. */
 typedef struct ang_plan_facts {

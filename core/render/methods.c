@@ -38,20 +38,20 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
 
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                                     const ang_render_options *options, const char **why) {
-    *why = "there is no OpenGL";
-    if (!gl) return &ang_method_reference;
-    *why = "the volume does not fit into one texture";
+    static const ang_method *const by_drawing[] = {[ANG_DRAW_REFERENCE] = &ang_method_reference,
+                                                   [ANG_DRAW_WHOLE_RAYS] = &ang_method_singlepass,
+                                                   [ANG_DRAW_ENVELOPE] = &ang_method_envelope,
+                                                   [ANG_DRAW_PASSES] = &ang_method_raycast,
+                                                   [ANG_DRAW_SLICES] = &ang_method_slicing};
     bool weighted = scene->mode == ANG_MODE_MEAN && volume->padding;
     size_t bytes = ang_volume_count(volume) * sizeof *volume->data * (weighted ? 2 : 1);
-    if ((options->gpu_memory && bytes > options->gpu_memory) || !ang_volume_texture_fits(gl, volume->dims, NULL))
-        return &ang_method_slicing;
-    *why = "an option asks for slicing";
+    bool within = !options->gpu_memory || bytes <= options->gpu_memory;
     int steps = options->pass_steps;
     bool planes = steps == 1 || steps == 2 || steps == 4; /* what slicing composites in a fragment */
-    if (options->bricks[0] || options->show_bricks || planes || options->proxy != ANG_PROXY_VERTEX_PROGRAM)
-        return &ang_method_slicing;
-    *why = "an option asks for raycast";
-    if (options->separate_passes || steps) return &ang_method_raycast;
-    *why = "it takes the fewest samples: rays skip what shows nothing";
-    return &ang_method_envelope;
+    ang_drawing_facts facts = {.gl = gl,
+                               .fits = gl && within && ang_volume_texture_fits(gl, volume->dims, NULL),
+                               .asks_slices = options->bricks[0] || options->show_bricks || planes ||
+                                              options->proxy != ANG_PROXY_VERTEX_PROGRAM,
+                               .asks_passes = options->separate_passes || steps};
+    return by_drawing[ang_plan_drawing(&facts, why)];
 }

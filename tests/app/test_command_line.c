@@ -422,8 +422,42 @@ static void progress_and_messages_go_to_stderr(void **state) {
     assert_string_equal(output, "");
 }
 
+/* Budgets, without OpenGL, where the reference is all there is. */
+static void budgets_are_kept_or_said_to_be_missed(void **state) {
+    (void)state;
+    static const char draw[] = "render " PHANTOM " -o " TMP "/budget.png --size 12x12 --preset cta-head --backend none "
+                               "--threads 1 --quiet --json -";
+    char command[512];
+    assert_int_equal(setenv("XDG_CACHE_HOME", TMP "/cache", 1), 0);
+    snprintf(command, sizeof command, "%s --max-error 1", draw);
+    expect(0, command);
+    cJSON *json = cJSON_Parse(output);
+    const cJSON *budget = cJSON_GetObjectItemCaseSensitive(json, "budget");
+    assert_string_equal(cJSON_GetObjectItemCaseSensitive(budget, "method")->valuestring, "reference");
+    assert_true(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(budget, "error_kept")));
+    assert_true(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(budget, "time_kept")));
+    assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(budget, "max_time_ms")));
+    cJSON_Delete(json);
+    snprintf(command, sizeof command, "%s --max-time 0.001", draw);
+    expect(0, command);
+    json = cJSON_Parse(output);
+    budget = cJSON_GetObjectItemCaseSensitive(json, "budget");
+    assert_true(cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(budget, "time_kept")));
+    assert_int_equal(cJSON_GetObjectItemCaseSensitive(budget, "stride")->valueint, 4);
+    assert_non_null(strstr(output, "was missed"));
+    assert_true(cJSON_IsTrue(
+        cJSON_GetObjectItemCaseSensitive(cJSON_GetObjectItemCaseSensitive(budget, "cost_models"), "cached")));
+    cJSON_Delete(json);
+    snprintf(command, sizeof command, "%s --max-error 0 2>&1", draw);
+    expect(2, command);
+    snprintf(command, sizeof command, "%s --force slaps 2>&1", draw);
+    expect(2, command);
+    assert_non_null(strstr(output, "near-plane"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(budgets_are_kept_or_said_to_be_missed),
         cmocka_unit_test(usage_errors_give_two),
         cmocka_unit_test(what_a_method_cannot_do_is_said),
         cmocka_unit_test(lookups_are_a_heat_map),

@@ -195,6 +195,23 @@ static void forcing_one_part_leaves_the_others(void **state) {
     }
 }
 
+static void the_way_to_draw_follows_what_is_there(void **state) {
+    (void)state;
+    const char *why = NULL;
+    ang_drawing_facts f = {.gl = true, .fits = true};
+    assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_ENVELOPE);
+    f.asks_passes = true;
+    assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_PASSES);
+    f.asks_slices = true;
+    assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_SLICES);
+    assert_non_null(strstr(why, "option"));
+    f = (ang_drawing_facts){.gl = true, .asks_passes = true};
+    assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_SLICES);
+    assert_non_null(strstr(why, "does not fit"));
+    f.gl = false;
+    assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_REFERENCE);
+}
+
 /* What is not known yet speaks for a part, so that a method builds what it takes to know. */
 static void unknown_facts_speak_for_a_part(void **state) {
     (void)state;
@@ -280,10 +297,15 @@ static void boxes_of_blocks_hold_what_is_touched(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_a_scene_needs_is_used),           cmocka_unit_test(each_part_is_left_out_for_its_reason),
-        cmocka_unit_test(what_is_forbidden_cannot_be_forced),   cmocka_unit_test(whole_steps_need_what_lies_around),
-        cmocka_unit_test(forcing_one_part_leaves_the_others),   cmocka_unit_test(unknown_facts_speak_for_a_part),
-        cmocka_unit_test(names_are_read_and_refused),           cmocka_unit_test(plans_say_what_is_saved),
+        cmocka_unit_test(what_a_scene_needs_is_used),
+        cmocka_unit_test(the_way_to_draw_follows_what_is_there),
+        cmocka_unit_test(each_part_is_left_out_for_its_reason),
+        cmocka_unit_test(what_is_forbidden_cannot_be_forced),
+        cmocka_unit_test(whole_steps_need_what_lies_around),
+        cmocka_unit_test(forcing_one_part_leaves_the_others),
+        cmocka_unit_test(unknown_facts_speak_for_a_part),
+        cmocka_unit_test(names_are_read_and_refused),
+        cmocka_unit_test(plans_say_what_is_saved),
         cmocka_unit_test(boxes_of_blocks_hold_what_is_touched),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
