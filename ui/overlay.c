@@ -64,8 +64,12 @@ void ang_pane_corner(ang_viewer *viewer, ang_rect rect, int right, int bottom, i
         bottom ? rect.y + rect.height - edge - (line + 1) * tall + ang_gui_px(gui, 3) : rect.y + edge + line * tall;
     /* The pane's letter stands before its name. */
     if (!right && !bottom && line == 0) x += ang_gui_px(gui, 20);
-    ang_gui_clip(gui, (ang_rect){rect.x, rect.y, rect.width, rect.height});
-    ang_gui_write(gui, x, y, right, true, true, ANG_INK_TEXT, text);
+    /* The middle of the edge is the letter's: what is too long is cut off at its end. */
+    double half = rect.width / 2 - ang_gui_px(gui, 26);
+    ang_rect room = {right ? rect.x + rect.width - half : rect.x, rect.y, half, rect.height};
+    bool fits = ang_gui_text_width(gui, text, true) <= half - edge;
+    ang_gui_clip(gui, room);
+    ang_gui_write(gui, right && !fits ? room.x : x, y, right && fits, true, true, ANG_INK_TEXT, text);
     ang_gui_unclip(gui);
 }
 
