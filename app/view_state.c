@@ -97,6 +97,11 @@ static void add_study(cJSON *root, const ang_viewer_state *state) {
     ang_json_add_number(slab, "mm", document->slab_mm);
     cJSON_AddStringToObject(slab, "mode", ang_slab_name(document->slab));
     cJSON_AddItemToObject(root, "preset", preset_of(document));
+    cJSON *editor = cJSON_AddObjectToObject(root, "editor");
+    const ang_rect *plot = &state->editor;
+    add_numbers(editor, "plot", (double[]){plot->x, plot->y, plot->width, plot->height}, 4);
+    add_numbers(editor, "hu", (double[]){state->editor_low, state->editor_high}, 2);
+    cJSON_AddNumberToObject(editor, "point", state->point);
     cJSON_AddBoolToObject(root, "preset_changed", document->edited);
     ang_json_add_number(root, "shift_hu", document->shift_hu);
     ang_json_add_number(root, "stretch", document->stretch);

@@ -255,6 +255,7 @@ void ang_transfer_editor(ang_viewer *viewer) {
     ang_canvas canvas;
     ang_gui_canvas(gui, "transfer function", width, tall, &canvas);
     plot plot = {viewer, {canvas.rect.x, canvas.rect.y + inset, width, tall - strip_height - axis_height - inset}};
+    viewer->editor = plot.rect;
     handle(viewer, &plot, &canvas);
     ang_rect back = {canvas.rect.x, canvas.rect.y, width, inset + plot.rect.height};
     ang_gui_fill(gui, back, ANG_INK(14, 14, 14, 255));

@@ -37,10 +37,13 @@ typedef struct ang_viewer_state {
         int index, count;
         double zoom, pan_mm[2];
     } slice[ANG_ORIENTATIONS];
-    ang_pane hovered;         /* ANG_PANES: none */
-    double hovered_hu;        /* NaN: none */
-    int maximised;            /* ang_pane; -1: none */
-    ang_rect pane[ANG_PANES]; /* in the window; of no size: not shown */
+    ang_pane hovered;               /* ANG_PANES: none */
+    double hovered_hu;              /* NaN: none */
+    int maximised;                  /* ang_pane; -1: none */
+    ang_rect pane[ANG_PANES];       /* in the window; of no size: not shown */
+    ang_rect editor;                /* the transfer function's plot, in the window */
+    double editor_low, editor_high; /* HU at its sides */
+    int point;                      /* chosen in the editor; -1: none */
     const char *tool;
     const char *method;
     int size[2]; /* of the 3D picture, pixels */

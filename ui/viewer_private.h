@@ -95,6 +95,7 @@ typedef struct ang_viewer {
     char message[1100]; /* on the status line */
     bool message_bad;
     double message_until;           /* seconds */
+    ang_rect editor;                /* where the transfer function was plotted */
     int point;                      /* selected in the editor, -1: none */
     double editor_low, editor_high; /* HU shown */
     ang_histogram *histogram;       /* NULL: none */

@@ -270,6 +270,17 @@ static void a_saved_slice_is_the_volumes(void **state) {
     assert_true(ang_mat4_inverse(&volume->affine, &to_index));
     double pixel = 95 * ang_volume_spacing(volume, 1) / picture.height;
     ang_vec3 middle_mm = ang_volume_centre(volume);
+    /* The status line's value under the pointer. */
+    int at_x, at_y;
+    middle("axial", &at_x, &at_y);
+    hands("mousemove %d %d", at_x + 37, at_y + 11);
+    cJSON *rect = read_state();
+    ang_vec3 pointed = {
+        middle_mm.x + (at_x + 37 + 0.5 - number_at(rect, "panes.axial.0") - picture.width / 2.0) * pixel,
+        middle_mm.y + (at_y + 11 + 0.5 - number_at(rect, "panes.axial.1") - picture.height / 2.0) * pixel, z};
+    cJSON_Delete(rect);
+    double under = ang_volume_hu(volume, ang_volume_sample(volume, ang_mat4_point(&to_index, pointed)));
+    expect_number("hovered_hu", under, 0.01);
     int seen = 0;
     for (int y = 3; y < picture.height - 3; y += 11)
         for (int x = 3; x < picture.width - 3; x += 11) {
@@ -371,6 +382,62 @@ static void a_saved_volume_is_the_headless_picture(void **state) {
     compare_with_headless("angioscope-volume-0002.png");
 }
 
+/* Where the editor draws a value and an opacity. */
+static void editor_place(double hu, double opacity, int *x, int *y) {
+    cJSON *state = read_state();
+    double low = number_at(state, "editor.hu.0"), high = number_at(state, "editor.hu.1");
+    double left = number_at(state, "editor.plot.0"), top = number_at(state, "editor.plot.1");
+    double width = number_at(state, "editor.plot.2"), height = number_at(state, "editor.plot.3");
+    cJSON_Delete(state);
+    *x = (int)lround(left + (hu - low) / (high - low) * width);
+    *y = (int)lround(top + (1 - sqrt(opacity)) * height); /* a square-root scale */
+}
+
+/* Points are chosen, dragged, typed, added, deleted; and all of it undone. */
+static void a_transfer_function_is_edited(void **state) {
+    (void)state;
+    need_window();
+    go_to("volume");
+    hands("key 1"); /* cta-head, whatever was before */
+    expect_text("preset.name", "cta-head");
+    expect_number("preset.points.5.hu", 350, 0);
+    cJSON *before = read_state();
+    double per_pixel =
+        (number_at(before, "editor.hu.1") - number_at(before, "editor.hu.0")) / number_at(before, "editor.plot.2");
+    double height = number_at(before, "editor.plot.3");
+    cJSON_Delete(before);
+    int x, y;
+    editor_place(350, 0.4, &x, &y);
+    hands("mousemove %d %d", x, y);
+    drag(1, 3, -30);
+    expect_number("editor.point", 5, 0);
+    expect_number("preset.points.5.hu", 350 + 3 * per_pixel, 1e-6);
+    double tall = sqrt(0.4) + 30 / height;
+    expect_number("preset.points.5.opacity", tall * tall, 1e-6);
+    /* The fields below have the chosen point: its HU is the first. */
+    cJSON *plot = read_state();
+    int left = (int)number_at(plot, "editor.plot.0") + 30;
+    int below = (int)(number_at(plot, "editor.plot.1") + number_at(plot, "editor.plot.3")) + 44;
+    cJSON_Delete(plot);
+    hands("mousemove %d %d click 1 key ctrl+a type 361.5", left, below);
+    hands("key Return");
+    expect_number("preset.points.5.hu", 361.5, 0);
+    editor_place(0, 0.7, &x, &y); /* nothing is near: a new point */
+    hands("mousemove %d %d click --repeat 2 --delay 60 1", x, y);
+    expect_number("editor.point", 1, 0);
+    expect_number("preset.points.1.hu", 0, 0.51 * per_pixel);
+    expect_number("preset.points.1.opacity", 0.7, 0.01);
+    hands("key Delete");
+    expect_number("preset.points.1.hu", 140, 0);
+    hands("key --delay 60 ctrl+z");
+    expect_number("preset.points.1.opacity", 0.7, 0.01);
+    hands("key ctrl+z key ctrl+z");
+    expect_number("preset.points.5.hu", 350 + 3 * per_pixel, 1e-6);
+    hands("key ctrl+z");
+    expect_number("preset.points.5.hu", 350, 0);
+    expect_number("preset.points.5.opacity", 0.4, 0);
+}
+
 static void panes_grow_and_shrink(void **state) {
     (void)state;
     need_window();
@@ -449,6 +516,7 @@ int main(void) {
         cmocka_unit_test(a_saved_slice_is_the_volumes),
         cmocka_unit_test(the_volume_turns_with_the_hand),
         cmocka_unit_test(a_saved_volume_is_the_headless_picture),
+        cmocka_unit_test(a_transfer_function_is_edited),
         cmocka_unit_test(panes_grow_and_shrink),
         cmocka_unit_test(it_ends_well),
         cmocka_unit_test(what_cannot_be_read_is_said_in_the_window),
