@@ -35,9 +35,9 @@ static void copy_notes(const ang_load_report *report, ang_study *study) {
 
 static void write_label(const ang_load_report *report, ang_study *study) {
     const ang_series_info *info = &report->series[report->chosen];
-    bool described = info->description && info->description[0];
-    snprintf(study->label, sizeof study->label, "%s series %d%s%.60s", info->modality, info->number,
-             described ? ": " : "", described ? info->description : "");
+    bool described = info->description && info->description[0], named = strcmp(info->modality, "?") != 0;
+    snprintf(study->label, sizeof study->label, "%s series %d%s%.60s", named ? info->modality : report->format,
+             info->number, described ? ": " : "", described ? info->description : "");
 }
 
 static void release(void *context, ang_study *study) {

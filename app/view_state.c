@@ -109,6 +109,8 @@ static void add_study(cJSON *root, const ang_viewer_state *state) {
     ang_json_add_number(root, "elevation_deg", document->view.elevation_deg);
     cJSON_AddItemToObject(root, "render", render_options(state));
     cJSON_AddBoolToObject(root, "refined", state->refined);
+    ang_json_add_number(root, "latency_ms", state->latency_ms);
+    cJSON_AddNumberToObject(root, "frames", state->frames);
     ang_json_add_number(root, "frame_ms", state->frame_ms);
     cJSON_AddBoolToObject(root, "can_undo", state->undo);
     cJSON_AddBoolToObject(root, "can_redo", state->redo);

@@ -108,6 +108,7 @@ bool ang_event_take(ang_event_queue *queue, ang_input *input) {
     taken so_far = {0};
     input->wheel_x = input->wheel_y = 0;
     input->press_count = input->character_count = 0;
+    input->since_seconds = queue->count > 0 ? at(queue, 0)->seconds : 0;
     memset(input->double_click, 0, sizeof input->double_click);
     while (queue->count > 0 && fits(at(queue, 0), &so_far, input)) {
         apply(queue, at(queue, 0), &so_far, input);

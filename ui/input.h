@@ -66,10 +66,11 @@ enum { ANG_INPUT_PRESSES = 8, ANG_INPUT_CHARACTERS = 16 };
 
 /* What one frame sees. */
 typedef struct ang_input {
-    int width, height;   /* of the window, pixels */
-    double scale;        /* pixels for each unit of length of the interface; 1 on an ordinary screen */
-    double time_seconds; /* steady clock */
-    double x, y;         /* the pointer, pixels from the left top corner */
+    int width, height;    /* of the window, pixels */
+    double scale;         /* pixels for each unit of length of the interface; 1 on an ordinary screen */
+    double time_seconds;  /* steady clock */
+    double since_seconds; /* when the first of the events of this frame came; 0: none came */
+    double x, y;          /* the pointer, pixels from the left top corner */
     bool button[ANG_BUTTON_COUNT];
     bool double_click[ANG_BUTTON_COUNT]; /* went down in this frame, for the second time in a short while */
     double wheel_x, wheel_y;             /* turns; up and left positive */

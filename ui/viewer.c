@@ -336,6 +336,7 @@ static void tell_host(ang_viewer *viewer) {
                               .method = volume->method ? volume->method->name : NULL,
                               .size = {volume->size[0], volume->size[1]},
                               .refined = volume->refined,
+                              .latency_ms = viewer->latency_ms,
                               .frame_ms = volume->frame_ms,
                               .undo = ang_history_can_undo(&viewer->history),
                               .redo = ang_history_can_redo(&viewer->history),
@@ -364,6 +365,7 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
     if (viewer->save_window) save_window(viewer);
     ang_window_show(viewer->window);
     viewer->frames++;
+    if (viewer->input.since_seconds > 0) viewer->latency_ms = ang_now_ms() - 1000 * viewer->input.since_seconds;
     if (viewer->ready && !ang_gui_holding(viewer->gui) && !viewer->typing)
         ang_history_note(&viewer->history, &viewer->document, viewer->input.time_seconds);
     if (viewer->save_wanted && viewer->ready) save_pane(viewer);

@@ -48,6 +48,7 @@ typedef struct ang_viewer_state {
     const char *method;
     int size[2]; /* of the 3D picture, pixels */
     bool refined;
+    double latency_ms; /* from the last event to the window that showed what came of it */
     double frame_ms;   /* the last 3D picture's */
     int undo, redo;    /* 1 where possible */
     const char *saved; /* the last picture written; NULL: none */

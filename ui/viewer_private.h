@@ -102,6 +102,7 @@ typedef struct ang_viewer {
     bool typing;                    /* a text field has the keyboard */
     int redraws;                    /* frames still to draw before sleeping */
     int frames;
+    double latency_ms;
 } ang_viewer;
 
 /* viewer.c */

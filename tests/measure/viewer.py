@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""The viewer under a virtual screen (Xvfb, xdotool): how fast it answers, how it rests, how it bears random hands.
+
+    viewer.py latency PROGRAM INPUT [N]         from an event to the window that shows it, ms: median and 95th percentile
+    viewer.py start PROGRAM INPUT               seconds from the call to the first and to the refined picture
+    viewer.py idle PROGRAM INPUT                processor time in ten seconds without events, percent
+    viewer.py soak PROGRAM INPUT [N] [SEED]     N random events (10000); memory before and after; the program must end well
+"""
+import json
+import os
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+
+class Viewer:
+    def __init__(self, program, path):
+        self.folder = tempfile.mkdtemp()
+        self.state_file = os.path.join(self.folder, "state.json")
+        read, write = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x720x24", "-noreset"],
+                                       pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            os.environ["DISPLAY"] = ":" + pipe.readline().strip()
+        self.begun = time.time()
+        self.program = subprocess.Popen([program, "view", path, "--write-state", self.state_file, "--pictures",
+                                         os.path.join(self.folder, "pictures"), "--preset", "cta-head"])
+
+    def state(self):
+        try:
+            with open(self.state_file) as file:
+                return json.load(file)
+        except (OSError, ValueError):
+            return {}
+
+    def wait(self, wanted, seconds=60):
+        end = time.time() + seconds
+        while time.time() < end:
+            state = self.state()
+            if state and wanted(state):
+                return state
+            time.sleep(0.005)
+        sys.exit("the viewer does not come to where it should; its state: " + json.dumps(self.state())[:500])
+
+    def refined(self):
+        return self.wait(lambda s: s.get("refined"))
+
+    def hands(self, words):
+        subprocess.run(["xdotool"] + words.split(), check=True)
+
+    def middle(self, pane):
+        x, y, width, height = self.state()["panes"][pane]
+        return int(x + width / 2), int(y + height / 2)
+
+    def memory_mb(self):
+        with open(f"/proc/{self.program.pid}/status") as file:
+            return next(int(line.split()[1]) / 1024 for line in file if line.startswith("VmRSS"))
+
+    def seconds_used(self):
+        with open(f"/proc/{self.program.pid}/stat") as file:
+            fields = file.read().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def end(self):
+        self.hands("key Escape Escape Escape ctrl+q")
+        try:
+            code = self.program.wait(30)
+        except subprocess.TimeoutExpired:
+            self.program.kill()
+            code = "none: it had to be killed"
+        self.server.terminate()
+        return code
+
+
+def latencies(viewer, step, count):
+    """Of single events, each after the state of the one before has been written."""
+    times = []
+    for i in range(count):
+        frames = viewer.state()["frames"]
+        step(i)
+        times.append(viewer.wait(lambda s: s["frames"] > frames)["latency_ms"])
+    return times
+
+
+def report(what, times):
+    times = sorted(times)
+    print(f"{what:24s} median {statistics.median(times):6.0f} ms   95th percentile {times[int(0.95 * (len(times) - 1))]:6.0f} ms"
+          f"   ({len(times)} events)")
+
+
+def latency(viewer, count):
+    viewer.refined()
+    x, y = viewer.middle("volume")
+    viewer.hands(f"mousemove {x} {y} mousedown 1")
+    report("turning the volume", latencies(viewer, lambda i: viewer.hands(f"mousemove {x + 3 * (i + 1)} {y + i}"), count))
+    viewer.hands("mouseup 1")
+    viewer.refined()
+    x, y = viewer.middle("axial")
+    viewer.hands(f"mousemove {x} {y}")
+    time.sleep(0.5)
+    report("scrolling a slice", latencies(viewer, lambda i: viewer.hands("click 4" if i % 20 < 10 else "click 5"), count))
+    viewer.hands("mousedown 1")
+    report("windowing", latencies(viewer, lambda i: viewer.hands(f"mousemove {x + 2 * (i + 1)} {y}"), count))
+    viewer.hands("mouseup 1")
+    editor = viewer.refined()["editor"]
+    left, top, width, height = editor["plot"]
+    low, high = editor["hu"]
+    x = int(left + (350 - low) / (high - low) * width)
+    y = int(top + (1 - 0.4 ** 0.5) * height)
+    viewer.hands(f"mousemove {x} {y} mousedown 1")
+    report("dragging a point", latencies(viewer, lambda i: viewer.hands(f"mousemove {x} {y - 1 - i % 40}"), count))
+    viewer.hands("mouseup 1")
+
+
+def random_event(source):
+    kind = source.random()
+    button = source.choice([1, 1, 1, 2, 3])
+    if kind < 0.45:
+        return f"mousemove {source.randrange(1280)} {source.randrange(720)}"
+    if kind < 0.6:
+        return f"click {source.choice([1, 1, 1, 3, 4, 4, 5, 5])}"
+    if kind < 0.7:
+        return f"mousedown {button}"
+    if kind < 0.85:
+        return f"mouseup {button}"
+    keys = list("wcprot123456789") + ["Up", "Down", "Page_Up", "Page_Down", "Escape", "F1", "F2", "Return", "Delete", "Home",
+                                      "bracketleft", "bracketright", "ctrl+z", "ctrl+shift+z", "ctrl+s", "alt+a", "alt+l",
+                                      "alt+s", "shift+x", "ctrl+o", "Tab", "BackSpace", "space"]
+    return f"key {source.choice(keys)}"
+
+
+def soak(viewer, count, seed):
+    source = random.Random(seed)
+    viewer.refined()
+    with subprocess.Popen(["xdotool", "-"], stdin=subprocess.PIPE, text=True) as hands:
+        for i in range(count):
+            hands.stdin.write(random_event(source) + "\n")
+            if i % 20 == 0:
+                hands.stdin.write("sleep 0.05\n")
+            if i % (count // 10) == 0:
+                hands.stdin.flush()
+                print(f"{i:6d} events   {viewer.memory_mb():.0f} MB", flush=True)
+                if viewer.program.poll() is not None:
+                    sys.exit(f"the viewer has ended with code {viewer.program.returncode}")
+        hands.stdin.write("mouseup 1 mouseup 2 mouseup 3\n")
+    time.sleep(2)
+    print(f"{count:6d} events   {viewer.memory_mb():.0f} MB")
+
+
+def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
+    what, program, path = sys.argv[1:4]
+    numbers = [int(word) for word in sys.argv[4:]]
+    viewer = Viewer(program, path)
+    if what == "latency":
+        latency(viewer, numbers[0] if numbers else 60)
+    elif what == "start":
+        viewer.wait(lambda s: s["phase"] == "ready" and s["frames"] > 0)
+        first = time.time() - viewer.begun
+        viewer.refined()
+        print(f"first picture {first:.2f} s, refined {time.time() - viewer.begun:.2f} s")
+    elif what == "idle":
+        viewer.refined()
+        time.sleep(1)
+        before = viewer.seconds_used()
+        time.sleep(10)
+        print(f"{10 * (viewer.seconds_used() - before):.2f} % of a processor")
+    elif what == "soak":
+        soak(viewer, numbers[0] if numbers else 10000, numbers[1] if len(numbers) > 1 else 1)
+    code = viewer.end()
+    print(f"exit code {code}")
+    sys.exit(0 if code == 0 else 1)
+
+
+main()
