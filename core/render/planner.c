@@ -30,9 +30,12 @@ typedef struct planning {
     const ang_progress *progress;
     probe probes[MOST_METHODS];
     size_t count;
-    double fixed, varying, order; /* levels at a step of options.step_voxels: ang_budget_error */
-    double interpolation;         /* levels, of every second of the pixels looked at from the others... */
-    int interpolation_stride;     /* ... which lie so far apart in the picture */
+    double measured_step;         /* voxels */
+    double fixed, varying, order; /* levels at measured_step: ang_budget_error */
+    double rms;                   /* the same of the RMS, all of which varies */
+    /* Levels, the largest and the RMS, of every second of the pixels looked at, from the others... */
+    double interpolation, interpolation_rms;
+    int interpolation_stride; /* ... which lie so far apart in the picture */
 } planning;
 
 static ang_scene probe_scene(const ang_scene *scene, int side) {
@@ -41,9 +44,11 @@ static ang_scene probe_scene(const ang_scene *scene, int side) {
     return ang_scene_subset(scene, stride, stride / 2, stride / 2);
 }
 
-/* The largest error, in levels, of the pixels in odd columns and rows interpolated from those in even ones. */
-static double interpolation_error(const ang_image *image) {
-    double worst = 0;
+/* The error, in levels, of the pixels in odd columns and rows interpolated from those in even ones: of channels the
+ * largest and the RMS. */
+static void interpolation_error(const ang_image *image, double *worst, double *rms) {
+    double sum = 0, count = 0;
+    *worst = 0;
     for (int y = 1; y + 1 < image->height; y += 2)
         for (int x = 1; x + 1 < image->width; x += 2)
             for (int c = 0; c < 4; c++) {
@@ -51,9 +56,12 @@ static double interpolation_error(const ang_image *image) {
                 ptrdiff_t row = 4 * (ptrdiff_t)image->width;
                 double mean =
                     0.25 * ((double)at[-row - 4] + (double)at[-row + 4] + (double)at[row - 4] + (double)at[row + 4]);
-                worst = fmax(worst, 255 * fabs(mean - (double)*at));
+                double off = 255 * fabs(mean - (double)*at);
+                *worst = fmax(*worst, off);
+                sum += off * off;
+                count++;
             }
-    return worst;
+    *rms = sqrt(sum / fmax(count, 1));
 }
 
 static bool draw_probe(planning *p, const ang_method *method, ang_renderer *renderer, probe *out, ang_error *err) {
@@ -65,13 +73,13 @@ static bool draw_probe(planning *p, const ang_method *method, ang_renderer *rend
     bool ok = method->render(renderer, &scene, &p->options, &image, &stats, p->progress, err);
     double ms = ang_now_ms() - start;
     /* The first without counting compiles. */
-    for (int i = 0; i < 3 && ok && method->needs_gl; i++) {
+    for (int i = 0; i < 5 && ok && method->needs_gl; i++) {
         start = ang_now_ms();
         ok = method->render(renderer, &scene, &p->options, &image, NULL, p->progress, err);
         ms = i == 0 ? INFINITY : fmin(ms, ang_now_ms() - start);
     }
     if (ok && method->needs_gl && !(p->interpolation > 0)) {
-        p->interpolation = interpolation_error(&image);
+        interpolation_error(&image, &p->interpolation, &p->interpolation_rms);
         p->interpolation_stride = 2 * scene.sampling.stride;
     }
     ang_image_clear(&image);
@@ -95,6 +103,7 @@ static bool find_error(planning *p, const ang_method *method, ang_renderer *rend
     }
     p->fixed = isnan(estimate.levels) ? NAN : estimate.termination + estimate.filtering + estimate.arithmetic;
     p->varying = estimate.step;
+    p->rms = estimate.rms;
     p->order = isfinite(estimate.order) ? fmin(fmax(estimate.order, 0.7), 2) : 1;
     return true;
 }
@@ -121,11 +130,24 @@ static bool probe_methods(planning *p, const ang_method *const *methods, size_t 
     return p->count > 0;
 }
 
-/* Every method, at every step and with every stride in question. An edge is as far off at any stride, but fewer of the
- * pixels that are looked at lie beside one. */
+/* What a step and a stride are expected to be off, in levels. An edge is as far off at any stride, but the share of
+ * pixels beside one grows with it, and with that the square of the RMS. */
+static double largest_error(const planning *p, double step, int stride) {
+    double error = step > 0 ? ang_budget_error(p->fixed, p->varying, p->order, step, p->measured_step) : 0;
+    return fmin(error + (stride > 1 ? p->interpolation : 0), 255);
+}
+static double rms_error(const planning *p, double step, int stride) {
+    double error = step > 0 ? ang_budget_error(0, p->rms, p->order, step, p->measured_step) : 0;
+    double between = stride > 1 ? p->interpolation_rms * sqrt((double)stride / fmax(p->interpolation_stride, 1)) : 0;
+    return hypot(error, between);
+}
+
+/* Every method, at every step and with every stride in question; where only a time is given they are compared by the
+ * RMS, since the largest error tells coarse pictures apart no more. */
 static size_t list_candidates(const planning *p, ang_candidate *list) {
     size_t count = 0;
     int strides = isnan(p->budget->max_ms) ? 1 : STRIDES;
+    bool largest = !isnan(p->budget->max_error);
     for (size_t m = 0; m < p->count; m++)
         for (int s = 0; s < STEPS; s++)
             for (int k = 0; k < strides; k++) {
@@ -133,14 +155,12 @@ static size_t list_candidates(const planning *p, ang_candidate *list) {
                 bool exact = !from->method->needs_gl, slices = from->method == &ang_method_slicing;
                 if (exact && s > 0) continue;
                 int stride = 1 << k;
-                double step = coarsest_step * pow(2, -0.5 * s), finer = p->options.step_voxels / step;
+                double step = coarsest_step * pow(2, -0.5 * s), finer = p->measured_step / step;
                 ang_cost_work work =
                     ang_cost_scale(&from->work, from->pixels / (stride * stride), exact ? 1 : finer, slices);
-                double error =
-                    exact ? 0 : ang_budget_error(p->fixed, p->varying, p->order, step, p->options.step_voxels);
-                if (stride > 1) error += p->interpolation * sqrt((double)stride / fmax(p->interpolation_stride, 1));
-                list[count++] = (ang_candidate){(int)m, exact ? 0 : step, stride, ang_cost_predict(&from->model, &work),
-                                                fmin(error, 255)};
+                if (exact) step = 0;
+                double error = largest ? largest_error(p, step, stride) : rms_error(p, step, stride);
+                list[count++] = (ang_candidate){(int)m, step, stride, ang_cost_predict(&from->model, &work), error};
             }
     return count;
 }
@@ -173,16 +193,19 @@ static bool take(planning *p, const ang_candidate *chosen, ang_planned *out, ang
     out->step_voxels = chosen->step_voxels;
     out->stride = chosen->stride;
     out->ms = chosen->ms;
-    out->error = chosen->error;
-    out->interpolation =
-        chosen->stride > 1 ? p->interpolation * sqrt((double)chosen->stride / fmax(p->interpolation_stride, 1)) : 0;
+    out->error = largest_error(p, chosen->step_voxels, chosen->stride);
+    out->interpolation = chosen->stride > 1 ? p->interpolation : 0;
     out->renderer = out->method->create(p->gl, p->volume, &p->options, err);
     return out->renderer != NULL;
 }
 
-/* What interpolating between the pixels of the choice changes, in levels, at the pixels of ang_error_subset. */
+/* What interpolating between the pixels of the choice changes, in levels, at some of those farthest from any of them.
+ */
 static bool measure_interpolation(planning *p, ang_planned *out, ang_error *err) {
-    ang_scene some = ang_error_subset(p->scene), drawn = ang_scene_subset(p->scene, out->stride, 0, 0);
+    int longest = p->scene->width > p->scene->height ? p->scene->width : p->scene->height, middle = out->stride / 2;
+    int apart = (longest / PROBE_SIDE / out->stride + 1) * out->stride;
+    ang_scene some = ang_scene_subset(p->scene, apart, middle, middle);
+    ang_scene drawn = ang_scene_subset(p->scene, out->stride, 0, 0);
     ang_image whole = {0}, exact = {0}, sparse = {0};
     p->options.step_voxels = out->step_voxels > 0 ? out->step_voxels : p->options.step_voxels;
     bool ok = ang_image_create(&whole, p->scene->width, p->scene->height, err) &&
@@ -203,9 +226,8 @@ static bool measure_interpolation(planning *p, ang_planned *out, ang_error *err)
     ang_image_clear(&whole);
     ang_image_clear(&exact);
     ang_image_clear(&sparse);
-    double rest = fmax(out->error - out->interpolation, 0);
     out->interpolation = worst;
-    out->error = fmin(rest + worst, 255);
+    out->error = fmin(largest_error(p, out->step_voxels, 1) + worst, 255);
     return ok;
 }
 
@@ -254,7 +276,7 @@ bool ang_planner_plan(ang_gl *gl, const ang_volume *volume, const ang_scene *sce
     *planned = (ang_planned){.stride = 1};
     planning p = {
         .gl = gl, .volume = volume, .scene = scene, .options = *options, .budget = budget, .progress = progress};
-    p.options.step_voxels = ang_render_options_default.step_voxels;
+    p.options.step_voxels = p.measured_step = ang_render_options_default.step_voxels;
     const ang_method *methods[MOST_METHODS];
     const char *why;
     size_t count = 0;
