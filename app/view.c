@@ -83,8 +83,12 @@ static bool save_picture(void *context, const char *what, const ang_image *image
     const char *folder = ((view *)context)->options->pictures;
     if (!ang_folder_make(folder, err)) return false;
     for (int i = 1; i < MOST_PICTURES; i++) {
-        snprintf(path, size, "%s/angioscope-%s-%04d.png", folder, what, i);
-        if (access(path, F_OK) != 0) return ang_image_write(path, image, black, err);
+        char name[4096];
+        int used = snprintf(name, sizeof name, "%s/angioscope-%s-%04d.png", folder, what, i);
+        if (used < 0 || (size_t)used >= size) return ang_fail(err, ANG_OUTPUT, "%s: is too long a name", folder);
+        if (access(name, F_OK) == 0) continue;
+        memcpy(path, name, (size_t)used + 1);
+        return ang_image_write(path, image, black, err);
     }
     return ang_fail(err, ANG_OUTPUT, "%s: holds %d pictures of this kind; name another folder with --pictures", folder,
                     MOST_PICTURES - 1);

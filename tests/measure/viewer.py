@@ -136,19 +136,19 @@ def random_event(source):
 def soak(viewer, count, seed):
     source = random.Random(seed)
     viewer.refined()
-    with subprocess.Popen(["xdotool", "-"], stdin=subprocess.PIPE, text=True) as hands:
-        for i in range(count):
-            hands.stdin.write(random_event(source) + "\n")
+    print(f"{0:6d} events   {viewer.memory_mb():.0f} MB", flush=True)
+    for part in range(10):
+        events = []
+        for i in range(count // 10):
+            events.append(random_event(source))
             if i % 20 == 0:
-                hands.stdin.write("sleep 0.05\n")
-            if i % (count // 10) == 0:
-                hands.stdin.flush()
-                print(f"{i:6d} events   {viewer.memory_mb():.0f} MB", flush=True)
-                if viewer.program.poll() is not None:
-                    sys.exit(f"the viewer has ended with code {viewer.program.returncode}")
-        hands.stdin.write("mouseup 1 mouseup 2 mouseup 3\n")
-    time.sleep(2)
-    print(f"{count:6d} events   {viewer.memory_mb():.0f} MB")
+                events.append("sleep 0.05")
+        events.append("mouseup 1 mouseup 2 mouseup 3")
+        subprocess.run(["xdotool", "-"], input="\n".join(events), text=True, check=True)
+        time.sleep(2)
+        if viewer.program.poll() is not None:
+            sys.exit(f"the viewer has ended with code {viewer.program.returncode}")
+        print(f"{(part + 1) * (count // 10):6d} events   {viewer.memory_mb():.0f} MB", flush=True)
 
 
 def main():
