@@ -13,9 +13,9 @@ static const struct {
     int size;
     double step;
     ang_shading shading;
-} pictures[] = {{48, 1, ANG_SHADING_NONE},    {48, 0.3, ANG_SHADING_NONE},  {160, 1, ANG_SHADING_NONE},
-                {160, 0.3, ANG_SHADING_NONE}, {48, 1, ANG_SHADING_PHONG},   {48, 0.3, ANG_SHADING_PHONG},
-                {160, 1, ANG_SHADING_PHONG},  {160, 0.3, ANG_SHADING_PHONG}};
+} pictures[] = {{48, 1, ANG_SHADING_NONE},    {48, 0.3, ANG_SHADING_NONE},  {112, 1, ANG_SHADING_NONE},
+                {112, 0.3, ANG_SHADING_NONE}, {48, 1, ANG_SHADING_PHONG},   {48, 0.3, ANG_SHADING_PHONG},
+                {112, 1, ANG_SHADING_PHONG},  {112, 0.3, ANG_SHADING_PHONG}};
 enum { PICTURES = sizeof pictures / sizeof *pictures, TIMES = 2 };
 
 /* The reference takes about a millisecond a pixel. */
