@@ -24,10 +24,13 @@ void ang_app_budget_explain(const ang_app_budget *budget, ang_plan *plan) {
     const ang_planned *planned = &budget->planned;
     const ang_cost_model *model = ang_costs_of(&budget->costs, planned->method->name);
     ang_plan_use(plan,
-                 "budget: %s, step %.3g voxels, every %d. pixel along each axis, of %zu possibilities; predicted %.1f "
-                 "ms, %.2g levels; planned in %.0f ms",
-                 planned->method->name, planned->step_voxels, planned->stride, planned->candidates, planned->ms,
-                 planned->error, planned->planning_ms);
+                 "budget: %s, step %.3g voxels, %s, of %zu possibilities; predicted %.1f ms, %.2g levels; planned in "
+                 "%.0f ms",
+                 planned->method->name, planned->step_voxels,
+                 planned->stride == 1   ? "every pixel"
+                 : planned->stride == 2 ? "every second pixel along each axis"
+                                        : "every fourth pixel along each axis",
+                 planned->candidates, planned->ms, planned->error, planned->planning_ms);
     if (model)
         ang_plan_use(
             plan,

@@ -78,7 +78,10 @@ static void note_ignored(session *run) {
 /* Method, step and pixels that keep --max-error and --max-time. */
 static bool open_planned(session *run, ang_error *err) {
     ang_app_budget *budget = &run->summary.budget;
-    double start = ang_now_ms();
+    double start = ang_now_ms(), usual = ang_render_options_default.step_voxels;
+    if (fabs(run->options->step - usual) > 0)
+        ang_notes_add(&run->summary.warnings,
+                      "--step has no effect beside --max-error and --max-time, which choose it");
     if (!ang_app_budget_plan(budget, run->options, run->gl, run->volume, &run->picture, run->method,
                              ang_app_progress_sink(run->progress), err))
         return false;
@@ -102,6 +105,8 @@ static bool open_renderer(session *run, ang_error *err) {
     bool wants_gl = automatic || forced ? backend != ANG_BACKEND_NONE : run->method->needs_gl;
     if (wants_gl && !open_gl(run, backend, err)) return false;
     if (ang_app_budget_given(run->options) && !run->picture.lookups) return open_planned(run, err);
+    if (ang_app_budget_given(run->options))
+        ang_notes_add(&run->summary.warnings, "--max-error and --max-time have no effect with --mode lookups");
     if (automatic)
         run->method = ang_method_choose(run->gl, run->volume, &run->picture.scene, &run->picture.render, &why);
     ang_plan_use(&run->summary.plan, "%s: %s", run->method->name, run->method->title);
