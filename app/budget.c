@@ -24,7 +24,7 @@ void ang_app_budget_explain(const ang_app_budget *budget, ang_plan *plan) {
     const ang_planned *planned = &budget->planned;
     const ang_cost_model *model = ang_costs_of(&budget->costs, planned->method->name);
     ang_plan_use(plan,
-                 "budget: %s, step %.3g voxels, %s, of %zu possibilities; predicted %.1f ms, %.2g levels; planned in "
+                 "budget: %s, step %.3g voxels, %s, of %zu possibilities; predicted %.1f ms, %.3g levels; planned in "
                  "%.0f ms",
                  planned->method->name, planned->step_voxels,
                  planned->stride == 1   ? "every pixel"
