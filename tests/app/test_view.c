@@ -374,12 +374,56 @@ static void a_saved_volume_is_the_headless_picture(void **state) {
     hands("key ctrl+s");
     expect_text("saved", "angioscope-volume-0001.png");
     compare_with_headless("angioscope-volume-0001.png");
-    /* Another preset, in parallel projection, turned. */
-    hands("key alt+a key o key 1");
+    /* A surface in parallel projection, turned; then the greatest values, through the slices' window. */
+    hands("key alt+a key o key 4");
+    expect_text("preset.name", "ct-bone-iso");
     drag(1, -33, 21);
     hands("key ctrl+s");
     expect_text("saved", "angioscope-volume-0002.png");
     compare_with_headless("angioscope-volume-0002.png");
+    hands("key 7");
+    expect_text("preset.name", "ct-mip");
+    hands("key ctrl+s");
+    expect_text("saved", "angioscope-volume-0003.png");
+    compare_with_headless("angioscope-volume-0003.png");
+    hands("key o key 1");
+    expect_text("preset.name", "cta-head");
+}
+
+/* A click on what shows: the crosshair comes to lie under it, in front of the middle of the head. */
+static void a_click_on_the_volume_finds_its_surface(void **state) {
+    (void)state;
+    need_window();
+    go_to("volume");
+    hands("key r key alt+a key 9"); /* skin, from the front */
+    expect_text("preset.name", "ct-skin");
+    expect_text("render.3", "0,0,0");
+    int x, y;
+    middle("volume", &x, &y);
+    x -= 23;
+    y -= 10;
+    hands("mousemove %d %d click 1", x, y);
+    nap(300);
+    expect_number("azimuth_deg", 0, 0);
+    cJSON *now = read_state();
+    ang_volume *volume = ang_load(FOLDER "/phantom", &(ang_load_options){0}, &(ang_load_report){0}, NULL, NULL);
+    assert_non_null(volume);
+    ang_view view = ang_view_default;
+    view.zoom = atof(text_at(now, "render.7"));
+    ang_camera camera = ang_camera_for(volume, &view);
+    ang_vec3 mm = {number_at(now, "crosshair_mm.0"), number_at(now, "crosshair_mm.1"),
+                   number_at(now, "crosshair_mm.2")};
+    ang_vec3 from = ang_vec3_sub(mm, camera.eye);
+    double height = number_at(now, "panes.volume.3"), width = number_at(now, "panes.volume.2");
+    double pixels = height / 2 / tan(15 * M_PI / 180) / ang_vec3_dot(from, camera.forward); /* per mm at that depth */
+    double at_x = number_at(now, "panes.volume.0") + width / 2 + ang_vec3_dot(from, camera.right) * pixels;
+    double at_y = number_at(now, "panes.volume.1") + height / 2 - ang_vec3_dot(from, camera.up) * pixels;
+    /* The crosshair goes to the nearest slices, at most half a voxel of 2.4 mm away. */
+    assert_close(at_x, x + 0.5, 1.3 * pixels + 1);
+    assert_close(at_y, y + 0.5, 1.3 * pixels + 1);
+    assert_true(mm.y < -50); /* the forehead or the face, not the back of the head */
+    cJSON_Delete(now);
+    ang_volume_free(volume);
 }
 
 /* Where the editor draws a value and an opacity. */
@@ -516,6 +560,7 @@ int main(void) {
         cmocka_unit_test(a_saved_slice_is_the_volumes),
         cmocka_unit_test(the_volume_turns_with_the_hand),
         cmocka_unit_test(a_saved_volume_is_the_headless_picture),
+        cmocka_unit_test(a_click_on_the_volume_finds_its_surface),
         cmocka_unit_test(a_transfer_function_is_edited),
         cmocka_unit_test(panes_grow_and_shrink),
         cmocka_unit_test(it_ends_well),
