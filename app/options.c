@@ -61,7 +61,7 @@ static const option_spec table[] = {
                 "distance of samples along a ray"),
     TEXT_OPTION("size", DRAWS, size, "WxH", "512x512", "picture size in pixels"),
     TEXT_OPTION("size", ANG_VERB_VIEW, size, "WxH", NULL, "window size in pixels; default: as suits the screen"),
-    TEXT_OPTION("pictures", ANG_VERB_VIEW, pictures, "DIR", ".", "folder that saved pictures go to"),
+    TEXT_OPTION("pictures", ANG_VERB_VIEW, pictures, "DIR", ".", "folder that saved pictures and presets go to"),
     TEXT_OPTION("write-state", ANG_VERB_VIEW, write_state, "FILE", NULL,
                 "write what is shown as JSON to this file whenever it has changed"),
     TEXT_OPTION(

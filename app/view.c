@@ -17,7 +17,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_PRESETS = 126, MOST_PICTURES = 10000 };
+enum { MOST_PRESETS = 126, MOST_FILES = 9999 };
 
 typedef struct view {
     const ang_options *options;
@@ -77,21 +77,34 @@ static ang_preset *preset_for(void *context, const ang_study *study, ang_error *
     return preset;
 }
 
-static bool save_picture(void *context, const char *what, const ang_image *image, char *path, size_t size,
-                         ang_error *err) {
-    static const double black[4] = {0, 0, 0, 1};
-    const char *folder = ((view *)context)->options->pictures;
+/* The path of a file that is not there yet. */
+static bool new_file(const view *view, const char *what, const char *ending, char *path, size_t size, ang_error *err) {
+    const char *folder = view->options->pictures;
     if (!ang_folder_make(folder, err)) return false;
-    for (int i = 1; i < MOST_PICTURES; i++) {
+    for (int i = 1; i <= MOST_FILES; i++) {
         char name[4096];
-        int used = snprintf(name, sizeof name, "%s/angioscope-%s-%04d.png", folder, what, i);
+        int used = snprintf(name, sizeof name, "%s/angioscope-%s-%04d.%s", folder, what, i, ending);
         if (used < 0 || (size_t)used >= size) return ang_fail(err, ANG_OUTPUT, "%s: is too long a name", folder);
         if (access(name, F_OK) == 0) continue;
         memcpy(path, name, (size_t)used + 1);
-        return ang_image_write(path, image, black, err);
+        return true;
     }
-    return ang_fail(err, ANG_OUTPUT, "%s: holds %d pictures of this kind; name another folder with --pictures", folder,
-                    MOST_PICTURES - 1);
+    return ang_fail(err, ANG_OUTPUT, "%s: holds %d files of this kind; name another folder with --pictures", folder,
+                    MOST_FILES);
+}
+
+static bool save_picture(void *context, const char *what, const ang_image *image, char *path, size_t size,
+                         ang_error *err) {
+    static const double black[4] = {0, 0, 0, 1};
+    return new_file(context, what, "png", path, size, err) && ang_image_write(path, image, black, err);
+}
+
+static bool save_preset(void *context, const ang_document *document, char *path, size_t size, ang_error *err) {
+    char *text = ang_view_preset_print(document, err);
+    bool saved =
+        text && new_file(context, "preset", "json", path, size, err) && ang_file_replace(path, text, strlen(text), err);
+    free(text);
+    return saved;
 }
 
 /* Only what has changed is written. */
@@ -148,6 +161,7 @@ static bool run(view *view, ang_error *err) {
                             .release = release,
                             .preset_for = preset_for,
                             .save_picture = save_picture,
+                            .save_preset = save_preset,
                             .shown = options->write_state ? shown : NULL,
                             .presets = (const ang_preset *const *)view->presets,
                             .font = ang_font_find(),

@@ -43,7 +43,7 @@ static cJSON *render_options(const ang_viewer_state *state) {
     return list;
 }
 
-static cJSON *preset_of(const ang_document *document) {
+char *ang_view_preset_print(const ang_document *document, ang_error *err) {
     ang_preset preset = {.name = (char *)document->preset,
                          .modality = "any",
                          .description = "as shown",
@@ -54,11 +54,16 @@ static cJSON *preset_of(const ang_document *document) {
                          .iso_hu = document->iso_hu,
                          .window_centre = document->window_centre,
                          .window_width = document->window_width,
-                         .transfer = ang_document_transfer(document, NULL)};
-    char *text = preset.transfer ? ang_preset_print(&preset, NULL) : NULL;
+                         .transfer = ang_document_transfer(document, err)};
+    char *text = preset.transfer ? ang_preset_print(&preset, err) : NULL;
+    ang_transfer_free(preset.transfer);
+    return text;
+}
+
+static cJSON *preset_of(const ang_document *document) {
+    char *text = ang_view_preset_print(document, NULL);
     cJSON *object = text ? cJSON_Parse(text) : NULL;
     free(text);
-    ang_transfer_free(preset.transfer);
     return object;
 }
 

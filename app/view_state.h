@@ -8,5 +8,7 @@
  * the 3D pane's picture, with "preset" saved to a file. Nothing that may identify a patient. NULL where memory is out.
  * Free with free(). */
 char *ang_view_state_print(const ang_viewer_state *state);
+/* What is shown as the text of a preset's file. NULL with ANG_LIMIT. Free with free(). */
+char *ang_view_preset_print(const ang_document *document, ang_error *err);
 
 #endif

@@ -54,6 +54,11 @@ static void save_window(ang_viewer *viewer, int argument) {
     viewer->save_window = true;
 }
 
+static void save_preset(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_viewer_save_preset(viewer);
+}
+
 static void quit(ang_viewer *viewer, int argument) {
     (void)argument;
     ang_window_close(viewer->window);
@@ -189,6 +194,8 @@ static const action actions[] = {
     {"File", "Save picture of the pane", "under the pointer; refined, without writing on it", 'S', C, save_pane, 0,
      is_ready, NULL, true},
     {"File", "Save picture of the window", NULL, 'S', C | S, save_window, 0, NULL, NULL, false},
+    {"File", "Save preset", "the transfer function and modes as shown, a file for --preset", 'P', C, save_preset, 0,
+     is_ready, NULL, false},
     {"File", "Quit", NULL, 'Q', C, quit, 0, NULL, NULL, true},
     {"Edit", "Undo", "presets, points, windows, camera", 'Z', C, undo, 0, can_undo, NULL, false},
     {"Edit", "Redo", NULL, 'Z', C | S, redo, 0, can_redo, NULL, false},

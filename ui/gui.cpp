@@ -559,8 +559,8 @@ void ang_gui_write(ang_gui *gui, double x, double y, double align, bool small, b
     ImFont *font = font_of(gui, small);
     x = std::round(x - align * ang_gui_text_width(gui, text, small));
     y = std::round(y);
-    const ang_ink dark = ANG_INK(0, 0, 0, 200);
-    static const int around[][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const ang_ink dark = ANG_INK(0, 0, 0, 170);
+    static const int around[][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}};
     for (const auto &step : around)
         if (outlined) sheet()->AddText(font, font->FontSize, at(x + step[0], y + step[1]), dark, text);
     sheet()->AddText(font, font->FontSize, at(x, y), ink, text);

@@ -167,7 +167,8 @@ static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
              side.text, fabs(along));
     ang_pane_corner(viewer, rect, 0, 1, 0, text);
     if (document->slab_mm > 0) {
-        snprintf(text, sizeof text, "slab %.1f mm, %s", document->slab_mm, ang_slab_name(document->slab));
+        static const char *const slabs[] = {"mean", "MIP", "MinIP"};
+        snprintf(text, sizeof text, "slab %.1f mm, %s", document->slab_mm, slabs[document->slab]);
         ang_pane_corner(viewer, rect, 0, 1, 1, text);
     }
     snprintf(text, sizeof text, "C %.0f  W %.0f%s", document->window_centre, document->window_width, unit);

@@ -93,6 +93,20 @@ static void draw_grid(const plot *plot) {
     }
 }
 
+/* The preset as it was chosen, for comparison. */
+static void draw_chosen(const plot *plot) {
+    ang_gui *gui = plot->viewer->gui;
+    ang_transfer *transfer = ang_document_transfer(&plot->viewer->chosen, NULL);
+    if (!transfer) return;
+    double before = 0;
+    for (int i = 0; i <= (int)plot->rect.width; i++) {
+        double x = plot->rect.x + i, y = y_of(plot, ang_transfer_opacity(transfer, hu_of(plot, x)));
+        if (i > 0) ang_gui_line(gui, x - 1, before, x, y, ANG_INK(160, 190, 220, 150), 1);
+        before = y;
+    }
+    ang_transfer_free(transfer);
+}
+
 static void draw_curve(const plot *plot, const ang_transfer *transfer) {
     ang_gui *gui = plot->viewer->gui;
     double bottom = plot->rect.y + plot->rect.height, before = 0;
@@ -263,6 +277,7 @@ void ang_transfer_editor(ang_viewer *viewer) {
     draw_histogram(&plot);
     draw_grid(&plot);
     ang_transfer *transfer = ang_document_transfer(&viewer->document, NULL);
+    if (viewer->document.edited) draw_chosen(&plot);
     if (transfer) draw_curve(&plot, transfer);
     double bottom = plot.rect.y + plot.rect.height;
     if (transfer) draw_strip(&plot, transfer, (ang_rect){canvas.rect.x, bottom, width, strip_height});

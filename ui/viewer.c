@@ -52,7 +52,19 @@ void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm) {
 
 void ang_viewer_choose_preset(ang_viewer *viewer, const ang_preset *preset) {
     ang_document_take_preset(&viewer->document, preset);
+    viewer->chosen = viewer->document;
     viewer->point = -1;
+}
+
+void ang_viewer_save_preset(ang_viewer *viewer) {
+    ang_error err = {0};
+    const ang_viewer_host *host = viewer->host;
+    if (!host->save_preset(host->context, &viewer->document, viewer->saved, sizeof viewer->saved, &err)) {
+        viewer->saved[0] = '\0';
+        ang_viewer_say(viewer, true, "%s", err.message);
+    } else {
+        ang_viewer_say(viewer, false, "Saved %s", viewer->saved);
+    }
 }
 
 void ang_viewer_file_window(const ang_viewer *viewer, double *centre, double *width) {

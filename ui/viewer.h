@@ -51,7 +51,7 @@ typedef struct ang_viewer_state {
     double latency_ms; /* from the last event to the window that showed what came of it */
     double frame_ms;   /* the last 3D picture's */
     int undo, redo;    /* 1 where possible */
-    const char *saved; /* the last picture written; NULL: none */
+    const char *saved; /* the last file written; NULL: none */
     int frames;        /* windows drawn so far */
 } ang_viewer_state;
 
@@ -66,6 +66,8 @@ typedef struct ang_viewer_host {
     /* Writes a picture to a new file, whose path goes to `path`. */
     bool (*save_picture)(void *context, const char *what, const ang_image *image, char *path, size_t size,
                          ang_error *err);
+    /* Writes what is shown as a preset to a new file, whose path goes to `path`. */
+    bool (*save_preset)(void *context, const ang_document *document, char *path, size_t size, ang_error *err);
     /* Told after each frame after which something differs; NULL: not wanted. */
     void (*shown)(void *context, const ang_viewer_state *state);
     const ang_preset *const *presets; /* NULL at the end; outlive the viewer */

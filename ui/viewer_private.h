@@ -73,6 +73,7 @@ typedef struct ang_viewer {
 
     ang_document document;
     ang_history history;
+    ang_document chosen;    /* as the preset was when it was chosen, to compare with */
     ang_preset *own_preset; /* of the host for this study; NULL: none */
     ang_vec3 crosshair;
     ang_slice_range range[ANG_ORIENTATIONS];
@@ -110,6 +111,7 @@ extern const ang_view ang_viewer_first_view;
 void ang_viewer_say(ang_viewer *viewer, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void ang_viewer_open(ang_viewer *viewer, const char *path);
 void ang_viewer_choose_preset(ang_viewer *viewer, const ang_preset *preset);
+void ang_viewer_save_preset(ang_viewer *viewer);
 /* The crosshair to a place, kept within the volume and on slices. */
 void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm);
 /* The window that the file asks for, else one that suits. */

@@ -5,6 +5,7 @@
 #include "io/image/image_io.h"
 #include "io/json.h"
 #include "io/load.h"
+#include "io/preset.h"
 #include "tests/app/program.h"
 
 #include <cjson/cJSON.h>
@@ -477,6 +478,13 @@ static void a_transfer_function_is_edited(void **state) {
     expect_number("preset.points.1.opacity", 0.7, 0.01);
     hands("key ctrl+z key ctrl+z");
     expect_number("preset.points.5.hu", 350 + 3 * per_pixel, 1e-6);
+    hands("key ctrl+p");
+    expect_text("saved", "angioscope-preset-0001.json");
+    assert_int_equal(run("presets show " FOLDER "/pictures/angioscope-preset-0001.json"), 0);
+    ang_preset *saved = ang_preset_load(FOLDER "/pictures/angioscope-preset-0001.json", NULL);
+    assert_non_null(saved);
+    assert_close(saved->transfer->points[5].hu, 350 + 3 * per_pixel, 1e-9);
+    ang_preset_free(saved);
     hands("key ctrl+z");
     expect_number("preset.points.5.hu", 350, 0);
     expect_number("preset.points.5.opacity", 0.4, 0);
