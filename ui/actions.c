@@ -13,9 +13,9 @@ typedef struct action {
     unsigned modifiers;
     void (*run)(ang_viewer *viewer, int argument);
     int argument;
+    bool apart;                                              /* from what stands before it in the menu */
     bool (*enabled)(const ang_viewer *viewer);               /* NULL: always */
     bool (*checked)(const ang_viewer *viewer, int argument); /* NULL: no tick */
-    bool apart;                                              /* from what stands before it in the menu */
 } action;
 
 typedef struct window_preset {
@@ -190,43 +190,43 @@ static void show_notes(ang_viewer *viewer, int argument) {
 enum { C = ANG_MOD_CONTROL, S = ANG_MOD_SHIFT, A = ANG_MOD_ALT };
 
 static const action actions[] = {
-    {"File", "Open...", "a folder or file; or drop it on the window", 'O', C, open_path, 0, NULL, NULL, false},
+    {"File", "Open...", "a folder or file; or drop it on the window", 'O', C, open_path, 0, false, NULL, NULL},
     {"File", "Save picture of the pane", "under the pointer; refined, without writing on it", 'S', C, save_pane, 0,
-     is_ready, NULL, true},
-    {"File", "Save picture of the window", NULL, 'S', C | S, save_window, 0, NULL, NULL, false},
+     true, is_ready, NULL},
+    {"File", "Save picture of the window", NULL, 'S', C | S, save_window, 0, false, NULL, NULL},
     {"File", "Save preset", "the transfer function and modes as shown, a file for --preset", 'P', C, save_preset, 0,
-     is_ready, NULL, false},
-    {"File", "Quit", NULL, 'Q', C, quit, 0, NULL, NULL, true},
-    {"Edit", "Undo", "presets, points, windows, camera", 'Z', C, undo, 0, can_undo, NULL, false},
-    {"Edit", "Redo", NULL, 'Z', C | S, redo, 0, can_redo, NULL, false},
+     false, is_ready, NULL},
+    {"File", "Quit", NULL, 'Q', C, quit, 0, true, NULL, NULL},
+    {"Edit", "Undo", "presets, points, windows, camera", 'Z', C, undo, 0, false, can_undo, NULL},
+    {"Edit", "Redo", NULL, 'Z', C | S, redo, 0, false, can_redo, NULL},
     {"Tools", "Window", "left drag in a slice: across width, up and down centre", 'W', 0, choose_tool, ANG_TOOL_WINDOW,
-     is_ready, is_tool, false},
-    {"Tools", "Crosshair", "left drag in a slice moves it", 'C', 0, choose_tool, ANG_TOOL_CROSSHAIR, is_ready, is_tool,
-     false},
-    {"Tools", "Pan", "also middle drag, or Space and left drag", 'P', 0, choose_tool, ANG_TOOL_PAN, is_ready, is_tool,
-     false},
-    {"Tools", "Crosshair to the centre", NULL, ANG_KEY_HOME, 0, centre_crosshair, 0, is_ready, NULL, true},
-    {"View", "Reset view", "of the pane under the pointer, else of all", 'R', 0, reset_view, 0, is_ready, NULL, false},
-    {"View", "One pane large", "also a double click", ANG_KEY_ENTER, 0, maximise, 0, is_ready, is_maximised, false},
-    {"View", "Anterior", NULL, 'A', A, standard_view, 0, is_ready, NULL, true},
-    {"View", "Posterior", NULL, 'P', A, standard_view, 1, is_ready, NULL, false},
-    {"View", "Left", NULL, 'L', A, standard_view, 2, is_ready, NULL, false},
-    {"View", "Right", NULL, 'R', A, standard_view, 3, is_ready, NULL, false},
-    {"View", "Superior", NULL, 'S', A, standard_view, 4, is_ready, NULL, false},
-    {"View", "Inferior", NULL, 'I', A, standard_view, 5, is_ready, NULL, false},
-    {"View", "Parallel projection", NULL, 'O', 0, toggle_projection, 0, is_ready, is_parallel, true},
-    {"View", "Crosshair lines", NULL, 'X', S, toggle_crosshair, 0, is_ready, shows_crosshair, true},
-    {"View", "Text on the panes", NULL, 'T', 0, toggle_text, 0, is_ready, shows_text, false},
-    {"View", "Full screen", NULL, ANG_KEY_F11, 0, full_screen, 0, NULL, NULL, true},
+     false, is_ready, is_tool},
+    {"Tools", "Crosshair", "left drag in a slice moves it", 'C', 0, choose_tool, ANG_TOOL_CROSSHAIR, false, is_ready,
+     is_tool},
+    {"Tools", "Pan", "also middle drag, or Space and left drag", 'P', 0, choose_tool, ANG_TOOL_PAN, false, is_ready,
+     is_tool},
+    {"Tools", "Crosshair to the centre", NULL, ANG_KEY_HOME, 0, centre_crosshair, 0, true, is_ready, NULL},
+    {"View", "Reset view", "of the pane under the pointer, else of all", 'R', 0, reset_view, 0, false, is_ready, NULL},
+    {"View", "One pane large", "also a double click", ANG_KEY_ENTER, 0, maximise, 0, false, is_ready, is_maximised},
+    {"View", "Anterior", NULL, 'A', A, standard_view, 0, true, is_ready, NULL},
+    {"View", "Posterior", NULL, 'P', A, standard_view, 1, false, is_ready, NULL},
+    {"View", "Left", NULL, 'L', A, standard_view, 2, false, is_ready, NULL},
+    {"View", "Right", NULL, 'R', A, standard_view, 3, false, is_ready, NULL},
+    {"View", "Superior", NULL, 'S', A, standard_view, 4, false, is_ready, NULL},
+    {"View", "Inferior", NULL, 'I', A, standard_view, 5, false, is_ready, NULL},
+    {"View", "Parallel projection", NULL, 'O', 0, toggle_projection, 0, true, is_ready, is_parallel},
+    {"View", "Crosshair lines", NULL, 'X', S, toggle_crosshair, 0, true, is_ready, shows_crosshair},
+    {"View", "Text on the panes", NULL, 'T', 0, toggle_text, 0, false, is_ready, shows_text},
+    {"View", "Full screen", NULL, ANG_KEY_F11, 0, full_screen, 0, true, NULL, NULL},
     {"Slices", "Next slice", "also the wheel; of the slice under the pointer, else axial", ANG_KEY_UP, 0, scroll, 1,
-     is_ready, NULL, false},
-    {"Slices", "Previous slice", NULL, ANG_KEY_DOWN, 0, scroll, -1, is_ready, NULL, false},
-    {"Slices", "Ten slices on", NULL, ANG_KEY_PAGE_UP, 0, scroll, 10, is_ready, NULL, false},
-    {"Slices", "Ten slices back", NULL, ANG_KEY_PAGE_DOWN, 0, scroll, -10, is_ready, NULL, false},
-    {"Slices", "Thicker slab", NULL, ']', 0, slab_thickness, 1, is_ready, NULL, true},
-    {"Slices", "Thinner slab", NULL, '[', 0, slab_thickness, -1, is_ready, NULL, false},
-    {"Help", "What keys and mouse do", NULL, ANG_KEY_F1, 0, show_help, 0, NULL, NULL, false},
-    {"Help", "What loading assumed", NULL, ANG_KEY_F2, 0, show_notes, 0, has_notes, NULL, false},
+     false, is_ready, NULL},
+    {"Slices", "Previous slice", NULL, ANG_KEY_DOWN, 0, scroll, -1, false, is_ready, NULL},
+    {"Slices", "Ten slices on", NULL, ANG_KEY_PAGE_UP, 0, scroll, 10, false, is_ready, NULL},
+    {"Slices", "Ten slices back", NULL, ANG_KEY_PAGE_DOWN, 0, scroll, -10, false, is_ready, NULL},
+    {"Slices", "Thicker slab", NULL, ']', 0, slab_thickness, 1, true, is_ready, NULL},
+    {"Slices", "Thinner slab", NULL, '[', 0, slab_thickness, -1, false, is_ready, NULL},
+    {"Help", "What keys and mouse do", NULL, ANG_KEY_F1, 0, show_help, 0, false, NULL, NULL},
+    {"Help", "What loading assumed", NULL, ANG_KEY_F2, 0, show_notes, 0, false, has_notes, NULL},
 };
 enum { action_count = sizeof actions / sizeof *actions };
 

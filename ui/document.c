@@ -98,16 +98,60 @@ double ang_document_opacity(const ang_document *document, int index) {
     return document->by_extinction ? -expm1(-value * document->unit_distance) : value;
 }
 
+static bool same_numbers(const double *a, const double *b, int count) {
+    for (int i = 0; i < count; i++)
+        if (a[i] < b[i] || a[i] > b[i]) return false;
+    return true;
+}
+
+static bool same_transfer(const ang_document *a, const ang_document *b) {
+    if (a->count != b->count || a->by_extinction != b->by_extinction) return false;
+    for (int i = 0; i < a->count; i++) {
+        const ang_transfer_point *p = &a->points[i], *q = &b->points[i];
+        if (!same_numbers((double[]){p->hu, p->opacity}, (double[]){q->hu, q->opacity}, 2) ||
+            !same_numbers(p->colour, q->colour, 3))
+            return false;
+    }
+    return same_numbers(&a->unit_distance, &b->unit_distance, 1);
+}
+
+static bool same_zoom(const ang_view *a, const ang_view *b) {
+    return same_numbers(&a->zoom, &b->zoom, 1) && same_numbers(a->pan_mm, b->pan_mm, 2);
+}
+
+static bool same_direction(const ang_view *a, const ang_view *b) {
+    return a->projection == b->projection &&
+           same_numbers((double[]){a->azimuth_deg, a->elevation_deg, a->roll_deg, a->fov_deg},
+                        (double[]){b->azimuth_deg, b->elevation_deg, b->roll_deg, b->fov_deg}, 4);
+}
+
+static bool same_style(const ang_document *a, const ang_document *b) {
+    const ang_phong *p = &a->phong, *q = &b->phong;
+    return a->mode == b->mode && a->shading == b->shading &&
+           same_numbers((double[]){p->ambient, p->diffuse, p->specular, p->power, p->g0},
+                        (double[]){q->ambient, q->diffuse, q->specular, q->power, q->g0}, 5);
+}
+
+static bool same_window(const ang_document *a, const ang_document *b) {
+    return same_numbers(&a->window_centre, &b->window_centre, 1) && same_numbers(&a->window_width, &b->window_width, 1);
+}
+
+bool ang_document_same_rendering(const ang_document *a, const ang_document *b) {
+    bool coloured = a->mode == ANG_MODE_DVR || a->mode == ANG_MODE_ISO;
+    return same_style(a, b) && same_direction(&a->view, &b->view) && same_zoom(&a->view, &b->view) &&
+           (coloured ? same_transfer(a, b) : same_window(a, b)) &&
+           (a->mode != ANG_MODE_ISO || same_numbers(&a->iso_hu, &b->iso_hu, 1));
+}
+
 /* What two states differ in. */
 typedef enum difference { SAME, SAME_BUT_ZOOM, OTHER } difference;
 
-/* By bytes: documents are copied whole and begin as zeros. */
 static difference compare(const ang_document *a, const ang_document *b) {
-    if (memcmp(a, b, sizeof *a) == 0) return SAME;
-    ang_document zoomed = *a;
-    zoomed.view.zoom = b->view.zoom;
-    memcpy(zoomed.view.pan_mm, b->view.pan_mm, sizeof zoomed.view.pan_mm);
-    return memcmp(&zoomed, b, sizeof zoomed) == 0 ? SAME_BUT_ZOOM : OTHER;
+    bool rest = same_transfer(a, b) && same_style(a, b) && same_window(a, b) && same_direction(&a->view, &b->view) &&
+                strcmp(a->preset, b->preset) == 0 && a->edited == b->edited && a->slab == b->slab &&
+                same_numbers((double[]){a->iso_hu, a->slab_mm, a->shift_hu, a->stretch},
+                             (double[]){b->iso_hu, b->slab_mm, b->shift_hu, b->stretch}, 4);
+    return !rest ? OTHER : same_zoom(&a->view, &b->view) ? SAME : SAME_BUT_ZOOM;
 }
 
 void ang_history_note(ang_history *history, const ang_document *document, double seconds) {

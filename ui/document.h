@@ -35,6 +35,9 @@ ang_transfer *ang_document_transfer(const ang_document *document, ang_error *err
  * and the last that shows anything, and the iso value along. */
 void ang_document_bend(ang_document *document, const ang_document *from, double shift, double stretch);
 
+/* Whether two documents give the same volume rendering. */
+bool ang_document_same_rendering(const ang_document *a, const ang_document *b);
+
 /* Editing points. Moves keep the order: a point stops at its neighbours. */
 /* Inserts a point on the function at `hu`; its index, or -1 where there is no room. */
 int ang_document_add_point(ang_document *document, double hu);

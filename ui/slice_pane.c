@@ -14,7 +14,7 @@ static const double least_window = 1;
 static uint8_t grey_of(double hu, double centre, double width) {
     if (isnan(hu)) return 0;
     double grey = (hu - centre) / width + 0.5;
-    return grey <= 0 ? 0 : grey >= 1 ? 255 : (uint8_t)(255 * grey + 0.5);
+    return grey <= 0 ? 0 : grey >= 1 ? 255 : (uint8_t)lround(255 * grey);
 }
 
 static bool make_room(ang_slice_picture *picture, size_t pixels, ang_error *err) {
@@ -29,11 +29,19 @@ static bool make_room(ang_slice_picture *picture, size_t pixels, ang_error *err)
     return true;
 }
 
+static bool same_place(ang_vec3 a, ang_vec3 b) { return ang_vec3_length(ang_vec3_sub(a, b)) == 0; }
+
+static bool same_plane(const ang_reslice_plane *a, const ang_reslice_plane *b) {
+    bool same_slab = a->slab == b->slab && a->thickness_mm >= b->thickness_mm && a->thickness_mm <= b->thickness_mm;
+    return a->width == b->width && a->height == b->height && same_slab && same_place(a->origin, b->origin) &&
+           same_place(a->step_x, b->step_x) && same_place(a->step_y, b->step_y);
+}
+
 /* Brings values, greys and texture up to date, each only where it has to be. */
 static bool fill(ang_viewer *viewer, ang_slice_picture *picture, const ang_reslice_plane *plane, ang_error *err) {
     const ang_document *document = &viewer->document;
     size_t pixels = (size_t)plane->width * (size_t)plane->height;
-    bool moved = !picture->filled || memcmp(&picture->plane, plane, sizeof *plane) != 0;
+    bool moved = !picture->filled || !same_plane(&picture->plane, plane);
     bool windowed = picture->centre < document->window_centre || picture->centre > document->window_centre ||
                     picture->width < document->window_width || picture->width > document->window_width;
     if (!moved && !windowed) return true;

@@ -14,23 +14,6 @@ static const double coarse_step = 1; /* smallest spacings; half of that when fin
 static const double least_scale = 0.25, first_pixels = 30000;
 static const double rest_seconds = 0.15; /* without a change, before the fine picture is begun */
 
-/* Whether two documents give the same rendering. */
-static bool same_rendering(const ang_document *a, const ang_document *b) {
-    ang_document as_b = *a;
-    memcpy(as_b.preset, b->preset, sizeof as_b.preset);
-    as_b.edited = b->edited;
-    as_b.shift_hu = b->shift_hu;
-    as_b.stretch = b->stretch;
-    as_b.slab = b->slab;
-    as_b.slab_mm = b->slab_mm;
-    if (a->mode == ANG_MODE_DVR || a->mode == ANG_MODE_ISO) {
-        as_b.window_centre = b->window_centre;
-        as_b.window_width = b->window_width;
-    }
-    if (a->mode != ANG_MODE_ISO) as_b.iso_hu = b->iso_hu;
-    return memcmp(&as_b, b, sizeof as_b) == 0;
-}
-
 ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_transfer *transfer, int width, int height) {
     const ang_document *document = &viewer->document;
     ang_scene scene = ang_scene_default(viewer->study.volume);
@@ -149,7 +132,7 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     ang_volume_picture *volume = &viewer->volume;
     if (width < 1 || height < 1) return;
     bool current = volume->shown && volume->size[0] == width && volume->size[1] == height &&
-                   same_rendering(&volume->document, &viewer->document);
+                   ang_document_same_rendering(&volume->document, &viewer->document);
     if (current && (!refine || volume->refined)) return;
     if (!current) volume->asked_seconds = ang_now_ms() / 1000;
     ang_error err = {0};
@@ -194,7 +177,9 @@ bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm) {
     if (!picture->transfer || !ang_ray_frame_make(volume, &scene, &frame, &err)) return false;
     ang_ray ray = ang_ray_through(&frame, x, y);
     double step = ang_volume_smallest_spacing(volume) / 2, through = 0, best = 0, chosen = NAN;
-    for (double t = ray.enter + step / 2; t < ray.leave; t += step) {
+    int steps = (int)fmax((ray.leave - ray.enter) / step, 0);
+    for (int i = 0; i < steps; i++) {
+        double t = ray.enter + (i + 0.5) * step;
         ang_vec3 at = ang_vec3_add(ang_vec3_along(ray.origin, ray.direction, t), frame.centre);
         double hu = ang_volume_hu(volume, ang_volume_sample(volume, at));
         if (document->mode == ANG_MODE_DVR) {

@@ -120,7 +120,7 @@ static void rows(void *context, size_t begin_row, size_t end_row, int worker) {
     for (size_t j = begin_row; j < end_row; j++)
         for (int begin = 0; begin < width; begin += PIECE) {
             int end = begin + PIECE < width ? begin + PIECE : width;
-            memset(piece.planes, 0, sizeof piece.planes);
+            memset(&piece, 0, sizeof piece);
             for (int k = 0; k < job->planes; k++) {
                 double start[3];
                 for (int axis = 0; axis < 3; axis++)

@@ -97,6 +97,35 @@ static void bending_moves_and_widens_what_shows(void **state) {
     for (int i = 0; i < 4; i++) assert_close(again.points[i].hu, document.points[i].hu, 1e-9);
 }
 
+/* Only what shows makes a new picture. */
+static void renderings_are_told_apart(void **state) {
+    (void)state;
+    ang_document document, other;
+    start(&document);
+    other = document;
+    other.window_width = 1;
+    other.slab_mm = 3;
+    other.iso_hu = 5;
+    other.edited = true;
+    assert_true(ang_document_same_rendering(&document, &other));
+    document.mode = other.mode = ANG_MODE_MIP;
+    assert_false(ang_document_same_rendering(&document, &other));
+    other.window_width = document.window_width;
+    other.points[1].opacity = 0.5;
+    assert_true(ang_document_same_rendering(&document, &other));
+    document.mode = other.mode = ANG_MODE_ISO;
+    assert_false(ang_document_same_rendering(&document, &other));
+    other = document;
+    other.view.roll_deg = 1e-9;
+    assert_false(ang_document_same_rendering(&document, &other));
+    other = document;
+    other.phong.power++;
+    assert_false(ang_document_same_rendering(&document, &other));
+    other = document;
+    other.view.pan_mm[1] = -1;
+    assert_false(ang_document_same_rendering(&document, &other));
+}
+
 static void undo_and_redo_walk_the_states(void **state) {
     (void)state;
     ang_history history = {0};
@@ -175,13 +204,10 @@ static void old_states_are_forgotten_not_new_ones(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(presets_come_over_whole),
-        cmocka_unit_test(a_new_point_changes_nothing_yet),
-        cmocka_unit_test(points_keep_their_order_and_range),
-        cmocka_unit_test(bending_moves_and_widens_what_shows),
-        cmocka_unit_test(undo_and_redo_walk_the_states),
-        cmocka_unit_test(one_gesture_is_one_step),
-        cmocka_unit_test(old_states_are_forgotten_not_new_ones),
+        cmocka_unit_test(presets_come_over_whole),           cmocka_unit_test(a_new_point_changes_nothing_yet),
+        cmocka_unit_test(points_keep_their_order_and_range), cmocka_unit_test(bending_moves_and_widens_what_shows),
+        cmocka_unit_test(renderings_are_told_apart),         cmocka_unit_test(undo_and_redo_walk_the_states),
+        cmocka_unit_test(one_gesture_is_one_step),           cmocka_unit_test(old_states_are_forgotten_not_new_ones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
