@@ -49,6 +49,16 @@ class Viewer:
     def refined(self):
         return self.wait(lambda s: s.get("refined"))
 
+    def settle(self, seconds=200):
+        """Until it has drawn what all events asked for: random hands are faster than it."""
+        end = time.time() + seconds
+        used = -1
+        while time.time() < end and self.program.poll() is None:
+            before, used = used, self.seconds_used()
+            if used - before < 0.02 and self.state().get("refined", True):
+                return
+            time.sleep(1)
+
     def hands(self, words):
         subprocess.run(["xdotool"] + words.split(), check=True)
 
@@ -145,7 +155,7 @@ def soak(viewer, count, seed):
                 events.append("sleep 0.05")
         events.append("mouseup 1 mouseup 2 mouseup 3")
         subprocess.run(["xdotool", "-"], input="\n".join(events), text=True, check=True)
-        time.sleep(2)
+        viewer.settle()
         if viewer.program.poll() is not None:
             sys.exit(f"the viewer has ended with code {viewer.program.returncode}")
         print(f"{(part + 1) * (count // 10):6d} events   {viewer.memory_mb():.0f} MB", flush=True)
