@@ -326,26 +326,18 @@ double ang_actions_menus(ang_viewer *viewer) {
 static const struct {
     const char *hand, *does;
 } hands[] = {
-    {"Left drag", "slice: the tool (window, crosshair, pan); 3D: turn"},
-    {"Click", "crosshair: here; 3D: to the first visible surface"},
-    {"Middle drag, Space + left", "pan"},
-    {"Right drag, Ctrl + wheel", "zoom about the pointer"},
-    {"Wheel", "slice: scroll; 3D: zoom"},
-    {"Shift + drag in 3D", "up and down: shift the preset; across: stretch it"},
-    {"Double click", "the pane large, and back"},
-    {"Shift in a drag of numbers", "ten times finer"},
-    {"Esc", "cancel a drag, loading, a window"},
-    {"1 ... 9", "windows; over the 3D pane: presets"},
+    {"Left drag", "slice: the tool; 3D: turn"},   {"Click", "crosshair here; 3D: to what shows first"},
+    {"Middle drag, Space + left drag", "pan"},    {"Right drag, Ctrl + wheel", "zoom about the pointer"},
+    {"Wheel", "slice: scroll; 3D: zoom"},         {"Shift + drag in 3D", "up, down: shift the preset; across: stretch"},
+    {"Double click", "the pane large, and back"}, {"Shift in a drag of numbers", "ten times finer"},
+    {"Esc", "cancel a drag, loading, a window"},  {"1 ... 9", "windows; over the 3D pane: presets"},
 };
 
-static void help_row(ang_gui *gui, const char *left, const char *right, const char *more) {
+static void help_cells(ang_gui *gui, const char *left, const char *right) {
     ang_gui_table_next(gui);
     ang_gui_text(gui, "%s", left);
     ang_gui_table_next(gui);
-    if (more)
-        ang_gui_text_dim(gui, "%s: %s", right, more);
-    else
-        ang_gui_text_dim(gui, "%s", right);
+    ang_gui_text_dim(gui, "%s", right);
 }
 
 void ang_actions_help(ang_viewer *viewer) {
@@ -353,12 +345,15 @@ void ang_actions_help(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     char text[32];
     ang_gui_message_begin(gui, "help");
-    bool open = ang_gui_table_begin(gui, "keys", 4);
-    for (int i = 0, hand = 0; i < action_count && open; i++) {
-        help_row(gui, shortcut(actions[i].key, actions[i].modifiers, text), actions[i].name, NULL);
-        bool left = hand < (int)(sizeof hands / sizeof *hands);
-        help_row(gui, left ? hands[hand].hand : "", left ? hands[hand].does : "", NULL);
-        hand++;
+    bool open = ang_gui_table_begin(gui, "keys", 6);
+    enum { hand_count = sizeof hands / sizeof *hands, rows = (action_count + 1) / 2 };
+    for (int i = 0; i < rows && open; i++) {
+        for (int k = i; k < i + 2 * rows; k += rows) {
+            bool there = k < action_count;
+            help_cells(gui, there ? shortcut(actions[k].key, actions[k].modifiers, text) : "",
+                       there ? actions[k].name : "");
+        }
+        help_cells(gui, i < hand_count ? hands[i].hand : "", i < hand_count ? hands[i].does : "");
     }
     if (open) ang_gui_table_end(gui);
     ang_gui_gap(gui, ang_gui_px(gui, 8));
