@@ -6,6 +6,7 @@
 #include "core/render/gradient_texture.h"
 #include "core/render/ray_pass.h"
 #include "core/render/scene_parts.h"
+#include "core/render/skip_grid.h"
 
 #include "core/base/memory.h"
 
@@ -69,15 +70,15 @@ static bool build_grid(ang_renderer *renderer, const ang_render_options *options
     const ang_volume_texture *field = d->facts.software ? NULL : &renderer->pass.field;
     if (field && !ang_ray_pass_hold(&renderer->pass, NULL, NULL, &d->upload_ms, err)) return false;
     if (!ang_skip_grid_update(&renderer->grid, gl, volume, field, &d->visibility, options->threads, err)) return false;
-    d->facts.blocks = renderer->grid.blocks;
-    d->facts.shown = renderer->grid.visible_blocks;
+    d->facts.blocks = renderer->grid.shown.blocks;
+    d->facts.shown = renderer->grid.shown.visible_blocks;
     return true;
 }
 
 static bool build_hull(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
     size_t budget = d->facts.software ? most_faces_software : most_faces;
     if (options->quads > 0) budget = (size_t)options->quads;
-    if (!ang_envelope_hull_update(&renderer->hull, renderer->pass.gl, &renderer->grid, &d->frame, budget, err))
+    if (!ang_envelope_hull_update(&renderer->hull, renderer->pass.gl, &renderer->grid.shown, &d->frame, budget, err))
         return false;
     d->facts.hull_fits = renderer->hull.cells.side > 0;
     return true;
@@ -87,8 +88,8 @@ static bool build_hull(ang_renderer *renderer, const ang_render_options *options
 static bool build_gradients(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
     ang_error lack = {0};
     if (!uses(d, ANG_PART_GRADIENT_TEXTURE) ||
-        ang_gradient_texture_update(&renderer->gradients, renderer->pass.gl, renderer->pass.volume, &renderer->grid,
-                                    options->threads, &lack))
+        ang_gradient_texture_update(&renderer->gradients, renderer->pass.gl, renderer->pass.volume,
+                                    &renderer->grid.shown, options->threads, &lack))
         return true;
     if (lack.code != ANG_LIMIT) return ang_fail(err, lack.code, "%s", lack.message);
     ang_gradient_texture_destroy(&renderer->gradients);
@@ -103,11 +104,11 @@ static void find_sampled(const ang_renderer *renderer, const ang_scene *scene, c
                          decision *d) {
     const ang_volume *volume = renderer->pass.volume;
     d->facts.texture_shared = d->facts.software && scene->mode != ANG_MODE_ISO;
-    if (!renderer->grid.octree || !d->facts.texture_shared) return;
+    if (!renderer->grid.shown.octree || !d->facts.texture_shared) return;
     ang_vec3 margin = ang_facts_margin(&d->frame, 2.02 * ang_ray_step(volume, options));
     margin = ang_vec3_add(margin, (ang_vec3){1, 1, 1});
     d->facts.share_uploaded =
-        ang_block_box_voxels(&renderer->grid.box, renderer->grid.octree, volume, margin, d->first, d->end);
+        ang_block_box_voxels(&renderer->grid.shown.box, renderer->grid.shown.octree, volume, margin, d->first, d->end);
     if (!uses(d, ANG_PART_GRADIENT_TEXTURE)) return;
     d->facts.share_uploaded = 0;
     for (int axis = 0; axis < 3; axis++) d->end[axis] = d->first[axis];
@@ -118,9 +119,9 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
                    ang_error *err) {
     const ang_volume *volume = renderer->pass.volume;
     *d = (decision){.renderer = renderer};
-    renderer->grid.build_ms = renderer->gradients.build_ms = 0;
+    renderer->grid.shown.build_ms = renderer->gradients.build_ms = 0;
     if (!ang_ray_pass_prepare(&renderer->pass, scene, options, &d->frame, err)) return false;
-    d->visibility = ang_visibility_make(volume, scene, renderer->pass.table.tables);
+    d->visibility = ang_visibility_make(volume, scene, renderer->pass.table.cache.tables);
     d->facts = ang_ray_pass_facts(&renderer->pass, ANG_DRAW_ENVELOPE, scene, options, &d->frame);
     d->facts.gradient_bytes = (double)ang_gradient_texture_bytes(volume);
     d->facts.gradient_limit = (double)most_gradient_bytes;
@@ -158,7 +159,7 @@ static void add_parts(const void *context, ang_shader_source *source) {
 }
 
 /* bounds_shown.glsl: half a voxel more on each side for rounding. */
-static void bind_box(const ang_skip_grid *grid, unsigned program) {
+static void bind_box(const ang_block_grid *grid, unsigned program) {
     double lower[3], upper[3];
     for (int axis = 0; axis < 3; axis++) {
         /* The first cell of the box begins at the first voxel, or half a voxel before it where there is only one. */
@@ -176,7 +177,7 @@ static void set_uniforms(const void *context, unsigned program, const ang_ray_fr
     const ang_renderer *renderer = d->renderer;
     if (uses(d, ANG_PART_SKIPPING)) ang_skip_grid_bind(&renderer->grid, program, UNIT_GRID, frame->centre);
     if (uses(d, ANG_PART_HULL)) ang_envelope_hull_bind(&renderer->hull, program, UNIT_RANGE);
-    if (is_boxed(d)) bind_box(&renderer->grid, program);
+    if (is_boxed(d)) bind_box(&renderer->grid.shown, program);
     if (uses(d, ANG_PART_GRADIENT_TEXTURE)) ang_gradient_texture_bind(&renderer->gradients, program, UNIT_GRADIENTS);
 }
 
@@ -189,8 +190,8 @@ static bool draw_range(ang_renderer *renderer, const ang_scene *scene, const dec
     ang_shader_source vertex, fragment;
     compose_range(&vertex, &fragment);
     unsigned program = ang_programs_get(&renderer->pass.programs, "envelope", &vertex, &fragment, err);
-    return program && ang_envelope_hull_draw(&renderer->hull, renderer->pass.gl, program, &renderer->grid, &d->frame,
-                                             scene->width, scene->height, err);
+    return program && ang_envelope_hull_draw(&renderer->hull, renderer->pass.gl, program, &renderer->grid.shown,
+                                             &d->frame, scene->width, scene->height, err);
 }
 
 static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
@@ -201,7 +202,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     bool whole = uses(&d, ANG_PART_SLABS);
     if (!ang_ray_pass_hold(&renderer->pass, whole ? NULL : d.first, d.end, &d.upload_ms, err)) return false;
     if (bounds && !draw_range(renderer, scene, &d, err)) return false;
-    const ang_skip_grid *grid = &renderer->grid;
+    const ang_block_grid *grid = &renderer->grid.shown;
     const ang_decision *gradients = &d.plan.part[ANG_PART_GRADIENT_TEXTURE];
     bool refused = options->gradients == ANG_GRADIENTS_TEXTURE && gradients->why;
     if (refused)
@@ -221,7 +222,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
 }
 
 static void explain_blocks(const ang_renderer *renderer, const decision *d, ang_plan *plan) {
-    const ang_skip_grid *grid = &renderer->grid;
+    const ang_block_grid *grid = &renderer->grid.shown;
     bool skips = uses(d, ANG_PART_SKIPPING), bounds = uses(d, ANG_PART_HULL);
     if (skips)
         ang_plan_use(plan,

@@ -44,7 +44,7 @@ static bool make_objects(ang_envelope_hull *hull, ang_error *err) {
 }
 
 /* The blocks of the clip box, [first, end). */
-static void clip_blocks(const ang_skip_grid *grid, const ang_ray_frame *frame, int first[3], int end[3]) {
+static void clip_blocks(const ang_block_grid *grid, const ang_ray_frame *frame, int first[3], int end[3]) {
     const ang_octree *octree = grid->octree;
     for (int axis = 0; axis < 3; axis++) {
         double start = -0.5 * octree->cells[axis], leaf = octree->leaf[axis];
@@ -107,7 +107,7 @@ static bool capture_faces(ang_envelope_hull *hull, ang_gl *gl, ang_error *err) {
     return ang_gl_check(gl, err);
 }
 
-bool ang_envelope_hull_update(ang_envelope_hull *hull, ang_gl *gl, const ang_skip_grid *grid,
+bool ang_envelope_hull_update(ang_envelope_hull *hull, ang_gl *gl, const ang_block_grid *grid,
                               const ang_ray_frame *frame, size_t budget, ang_error *err) {
     int first[3], end[3];
     clip_blocks(grid, frame, first, end);
@@ -141,7 +141,7 @@ void ang_envelope_hull_parts(ang_shader_source *vertex, ang_shader_source *fragm
     ANG_SHADER_ADD(fragment, hull_range);
 }
 
-static void set_uniforms(const ang_envelope_hull *hull, GLuint program, const ang_skip_grid *grid,
+static void set_uniforms(const ang_envelope_hull *hull, GLuint program, const ang_block_grid *grid,
                          const ang_ray_frame *frame, int width, int height) {
     const ang_octree *octree = grid->octree;
     ang_uniforms_ray(program, frame);
@@ -160,7 +160,7 @@ static void set_uniforms(const ang_envelope_hull *hull, GLuint program, const an
     ang_uniform_int(program, "hull_list", 0);
 }
 
-bool ang_envelope_hull_draw(ang_envelope_hull *hull, ang_gl *gl, unsigned program, const ang_skip_grid *grid,
+bool ang_envelope_hull_draw(ang_envelope_hull *hull, ang_gl *gl, unsigned program, const ang_block_grid *grid,
                             const ang_ray_frame *frame, int width, int height, ang_error *err) {
     if (!ang_target_resize(&hull->range, gl, width, height, 0, err)) return false;
     glBindFramebuffer(GL_FRAMEBUFFER, hull->range.framebuffer);

@@ -3,8 +3,9 @@
 #ifndef ANG_RENDER_ENVELOPE_HULL_H
 #define ANG_RENDER_ENVELOPE_HULL_H
 
+#include "core/plan/block_grid.h"
 #include "core/plan/hull.h"
-#include "core/render/skip_grid.h"
+#include "core/render/program.h"
 #include "core/render/target.h"
 #include "core/scene/clip_space.h"
 
@@ -28,13 +29,13 @@ typedef struct ang_envelope_hull {
 /* Makes the faces anew where the visible blocks, those inside the clip box or the budget are others than before. Where
  * even one cell has more faces than `budget`, cells.side is 0: the clip box bounds the rays. False with ANG_LIMIT,
  * ANG_GL. */
-bool ang_envelope_hull_update(ang_envelope_hull *hull, ang_gl *gl, const ang_skip_grid *grid,
+bool ang_envelope_hull_update(ang_envelope_hull *hull, ang_gl *gl, const ang_block_grid *grid,
                               const ang_ray_frame *frame, size_t budget, ang_error *err);
 
 /* The programs' parts of the pass that draws the range. */
 void ang_envelope_hull_parts(ang_shader_source *vertex, ang_shader_source *fragment);
 /* Draws it, for a picture of width x height, with that program. False with ANG_LIMIT, ANG_GL. */
-bool ang_envelope_hull_draw(ang_envelope_hull *hull, ang_gl *gl, unsigned program, const ang_skip_grid *grid,
+bool ang_envelope_hull_draw(ang_envelope_hull *hull, ang_gl *gl, unsigned program, const ang_block_grid *grid,
                             const ang_ray_frame *frame, int width, int height, ang_error *err);
 /* bounds_envelope.glsl; binds the range to texture unit `unit`. */
 void ang_envelope_hull_bind(const ang_envelope_hull *hull, unsigned program, int unit);

@@ -1,7 +1,41 @@
 #include "core/render/facts.h"
 
 #include "core/render/context_private.h"
-#include "core/render/scene_parts.h"
+#include "core/scene/clip_space.h"
+
+bool ang_scene_needs_table(const ang_scene *scene) {
+    return scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO;
+}
+
+bool ang_scene_needs_phong(const ang_scene *scene) {
+    return scene->mode == ANG_MODE_ISO || (scene->mode == ANG_MODE_DVR && scene->shading == ANG_SHADING_PHONG);
+}
+
+bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume) {
+    return scene->mode == ANG_MODE_MEAN && volume->padding;
+}
+
+int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume) {
+    /* Of an iso-surface table and gradient are looked up at the hit alone. The table's two neighbouring entries count
+     * as one lookup, as the papers count theirs, which the texture unit interpolated. */
+    if (scene->mode == ANG_MODE_ISO) return 1;
+    return 1 + ang_scene_needs_table(scene) + 6 * ang_scene_needs_phong(scene) + ang_scene_needs_weight(scene, volume);
+}
+
+void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume,
+                       const ang_plan_decisions *decisions) {
+    if (ang_scene_needs_table(scene))
+        ang_plan_use(plan, "transfer function");
+    else
+        ang_plan_leave_out(plan, "transfer function", "this mode shows values through the window");
+    if (ang_scene_needs_phong(scene)) ang_plan_use(plan, "gradients by central differences, Phong");
+    if (ang_scene_needs_weight(scene, volume))
+        ang_plan_use(plan, "weights that leave padding out of the mean");
+    else
+        ang_plan_leave_out(plan, "padding weights", "%s",
+                           volume->padding ? "only mode mean leaves padding out" : "the volume has no padding");
+    ang_plan_explain(decisions, plan);
+}
 
 /* Whether a ray may start inside the volume: the near plane reaches into the clip box. */
 static bool may_start_inside(const ang_ray_frame *frame) {
@@ -16,7 +50,7 @@ static bool may_start_inside(const ang_ray_frame *frame) {
 
 ang_plan_facts ang_facts_make(ang_drawing drawing, const ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                               const ang_render_options *options, const ang_ray_frame *frame,
-                              const ang_table_texture *table, double sample_mm) {
+                              const ang_table_cache *table, double sample_mm) {
     ang_clip_space space = ang_clip_space_make(frame, scene->width, scene->height);
     bool tabled = ang_scene_needs_table(scene);
     return (ang_plan_facts){
@@ -27,8 +61,7 @@ ang_plan_facts ang_facts_make(ang_drawing drawing, const ang_gl *gl, const ang_v
         .pixels = (double)scene->width * scene->height,
         .jumps = tabled && ang_transfer_jumps(scene->transfer),
         .one_colour = tabled && table->one_colour,
-        .whole_steps = ang_scene_whole_steps(scene, table),
-        .extinction = tabled ? ang_table_texture_greatest(table) : 0,
+        .extinction = tabled ? table->greatest : 0,
         .longest_mm = 2 * ang_volume_half_diagonal(volume),
         .sample_mm = sample_mm,
         .ahead = ang_clip_space_ahead(&space, frame->lower, frame->upper),

@@ -68,7 +68,7 @@ bool ang_gradient_texture_fits(const ang_volume *volume) {
 
 size_t ang_gradient_texture_bytes(const ang_volume *volume) { return 4 * sizeof(uint16_t) * ang_volume_count(volume); }
 
-static bool make(ang_gradient_texture *gradients, ang_gl *gl, const ang_volume *volume, const ang_skip_grid *grid,
+static bool make(ang_gradient_texture *gradients, ang_gl *gl, const ang_volume *volume, const ang_block_grid *grid,
                  ang_error *err) {
     gradients->filled = ang_alloc(grid->blocks, 1, "list of blocks with gradients", err);
     if (!gradients->filled) return false;
@@ -89,7 +89,7 @@ static bool make(ang_gradient_texture *gradients, ang_gl *gl, const ang_volume *
 }
 
 /* The voxels of blocks [x, end) of a row: those that interpolation inside them touches. */
-static run make_run(const ang_volume *volume, const ang_skip_grid *grid, int x, int end, int y, int z) {
+static run make_run(const ang_volume *volume, const ang_block_grid *grid, int x, int end, int y, int z) {
     const int first[3] = {x, y, z}, last[3] = {end - 1, y, z}, *leaf = grid->octree->leaf;
     run now = {.offset = 0};
     for (int axis = 0; axis < 3; axis++) {
@@ -101,7 +101,7 @@ static run make_run(const ang_volume *volume, const ang_skip_grid *grid, int x, 
 }
 
 /* The next run at or after block `*at`, which becomes the one behind it; false where there is none. */
-static bool next_run(ang_gradient_texture *gradients, const ang_volume *volume, const ang_skip_grid *grid, size_t *at,
+static bool next_run(ang_gradient_texture *gradients, const ang_volume *volume, const ang_block_grid *grid, size_t *at,
                      run *now) {
     const int *dims = grid->octree->level[0].dims;
     size_t i = *at, width = (size_t)dims[0];
@@ -119,7 +119,7 @@ static bool next_run(ang_gradient_texture *gradients, const ang_volume *volume, 
 }
 
 bool ang_gradient_texture_update(ang_gradient_texture *gradients, ang_gl *gl, const ang_volume *volume,
-                                 const ang_skip_grid *grid, int threads, ang_error *err) {
+                                 const ang_block_grid *grid, int threads, ang_error *err) {
     double start = ang_now_ms();
     gradients->build_ms = 0;
     if (!gradients->texture && !make(gradients, gl, volume, grid, err)) {

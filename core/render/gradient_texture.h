@@ -3,7 +3,9 @@
 #ifndef ANG_RENDER_GRADIENT_TEXTURE_H
 #define ANG_RENDER_GRADIENT_TEXTURE_H
 
-#include "core/render/skip_grid.h"
+#include "core/plan/block_grid.h"
+#include "core/render/context.h"
+#include "core/render/program.h"
 
 /* Zero-initialise; owns all. GL_RGBA16: in r, g, b the difference of the neighbours along x, y, z, clamped at the box,
  * in steps of range / 32767 about 32768 / 65535; in a the stored value / 65535. Interpolated, that is what central
@@ -24,7 +26,7 @@ size_t ang_gradient_texture_bytes(const ang_volume *volume);
 
 /* Fills the visible blocks of the grid that are not there yet. False with ANG_LIMIT, ANG_GL. */
 bool ang_gradient_texture_update(ang_gradient_texture *gradients, ang_gl *gl, const ang_volume *volume,
-                                 const ang_skip_grid *grid, int threads, ang_error *err);
+                                 const ang_block_grid *grid, int threads, ang_error *err);
 /* field_gradient.glsl; binds it to texture unit `unit`. */
 void ang_gradient_texture_bind(const ang_gradient_texture *gradients, unsigned program, int unit);
 void ang_gradient_texture_destroy(ang_gradient_texture *gradients);

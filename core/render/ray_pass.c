@@ -122,8 +122,10 @@ bool ang_ray_pass_prepare(ang_ray_pass *pass, const ang_scene *scene, const ang_
 
 ang_plan_facts ang_ray_pass_facts(const ang_ray_pass *pass, ang_drawing drawing, const ang_scene *scene,
                                   const ang_render_options *options, const ang_ray_frame *frame) {
-    return ang_facts_make(drawing, pass->gl, pass->volume, scene, options, frame, &pass->table,
-                          1.01 * ang_ray_step(pass->volume, options));
+    ang_plan_facts facts = ang_facts_make(drawing, pass->gl, pass->volume, scene, options, frame, &pass->table.cache,
+                                          1.01 * ang_ray_step(pass->volume, options));
+    ang_table_texture_facts(&pass->table, scene, &facts);
+    return facts;
 }
 
 /* Draws and reads the picture band by band. */

@@ -78,7 +78,7 @@ static void find_sampled(const ang_renderer *renderer, ang_raycast *r) {
 /* Decides as far as is known, builds what that takes, and decides again. */
 static bool decide(ang_renderer *renderer, ang_raycast *r, ang_error *err) {
     const ang_volume *volume = renderer->pass.volume;
-    r->visibility = ang_visibility_make(volume, r->scene, renderer->pass.table.tables);
+    r->visibility = ang_visibility_make(volume, r->scene, renderer->pass.table.cache.tables);
     r->facts = ang_ray_pass_facts(&renderer->pass, ANG_DRAW_PASSES, r->scene, r->options, &r->frame);
     r->plan = ang_plan_decide(&r->facts);
     renderer->blocks.build_ms = 0;

@@ -3,32 +3,18 @@
 #include <glad/gl.h>
 #include <shaders.h>
 
-bool ang_scene_needs_table(const ang_scene *scene) {
-    return scene->mode == ANG_MODE_DVR || scene->mode == ANG_MODE_ISO;
-}
-
-bool ang_scene_needs_phong(const ang_scene *scene) {
-    return scene->mode == ANG_MODE_ISO || (scene->mode == ANG_MODE_DVR && scene->shading == ANG_SHADING_PHONG);
-}
-
-bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume) {
-    return scene->mode == ANG_MODE_MEAN && volume->padding;
-}
-
 bool ang_scene_whole_steps(const ang_scene *scene, const ang_table_texture *table) {
     return scene->mode == ANG_MODE_DVR && table->classification.prefix;
+}
+
+void ang_table_texture_facts(const ang_table_texture *table, const ang_scene *scene, ang_plan_facts *facts) {
+    facts->whole_steps = ang_scene_whole_steps(scene, table);
+    if (ang_scene_needs_table(scene)) facts->extinction = ang_table_texture_greatest(table);
 }
 
 ang_classify ang_scene_classification(const ang_scene *scene, const ang_table_texture *table) {
     if (scene->mode != ANG_MODE_DVR) return ANG_CLASSIFY_AUTO;
     return table->classification.prefix ? ANG_CLASSIFY_PREFIX : ANG_CLASSIFY_MIDPOINT;
-}
-
-int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume) {
-    /* Of an iso-surface table and gradient are looked up at the hit alone. The table's two neighbouring entries count
-     * as one lookup, as the papers count theirs, which the texture unit interpolated. */
-    if (scene->mode == ANG_MODE_ISO) return 1;
-    return 1 + ang_scene_needs_table(scene) + 6 * ang_scene_needs_phong(scene) + ang_scene_needs_weight(scene, volume);
 }
 
 int ang_scene_step_lookups(const ang_scene *scene, const ang_table_texture *table, bool both_ends) {
@@ -49,21 +35,6 @@ void ang_scene_explain_steps(ang_plan *plan, const ang_scene *scene, const ang_t
     ang_plan_use(plan, "prefix-integrated classification: %s", why);
     if (!table->prefix.plateaus.texture)
         ang_plan_leave_out(plan, "plateaus at opacity 1", "the transfer function has none");
-}
-
-void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume,
-                       const ang_plan_decisions *decisions) {
-    if (ang_scene_needs_table(scene))
-        ang_plan_use(plan, "transfer function");
-    else
-        ang_plan_leave_out(plan, "transfer function", "this mode shows values through the window");
-    if (ang_scene_needs_phong(scene)) ang_plan_use(plan, "gradients by central differences, Phong");
-    if (ang_scene_needs_weight(scene, volume))
-        ang_plan_use(plan, "weights that leave padding out of the mean");
-    else
-        ang_plan_leave_out(plan, "padding weights", "%s",
-                           volume->padding ? "only mode mean leaves padding out" : "the volume has no padding");
-    ang_plan_explain(decisions, plan);
 }
 
 void ang_parts_field(ang_shader_source *source, ang_field_kind kind) {

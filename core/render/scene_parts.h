@@ -3,7 +3,7 @@
 #ifndef ANG_RENDER_SCENE_PARTS_H
 #define ANG_RENDER_SCENE_PARTS_H
 
-#include "core/plan/decide.h"
+#include "core/render/facts.h"
 #include "core/render/program.h"
 #include "core/render/table_texture.h"
 #include "core/render/volume_texture.h"
@@ -22,24 +22,16 @@ enum {
     ANG_UNIT_FREE
 };
 
-/* What of a scene costs lookups. */
-bool ang_scene_needs_table(const ang_scene *scene);                            /* dvr, iso */
-bool ang_scene_needs_phong(const ang_scene *scene);                            /* iso, dvr with Phong */
-bool ang_scene_needs_weight(const ang_scene *scene, const ang_volume *volume); /* mean, where there is padding */
 /* Whether steps are classified by all values between their ends (ang_table_texture_classify). */
 bool ang_scene_whole_steps(const ang_scene *scene, const ang_table_texture *table);
+/* What that changes of the facts that ang_facts_make knows. */
+void ang_table_texture_facts(const ang_table_texture *table, const ang_scene *scene, ang_plan_facts *facts);
 /* How they are in mode dvr; auto in others. */
 ang_classify ang_scene_classification(const ang_scene *scene, const ang_table_texture *table);
-/* Texture lookups of one sample: the field, the table, six for a gradient, the weight. */
-int ang_scene_lookups(const ang_scene *scene, const ang_volume *volume);
-
 /* Lookups that a step takes beyond these where it is classified by the values between its ends: prefix integrals, and
  * where `both_ends` are looked up the value of the second. */
 int ang_scene_step_lookups(const ang_scene *scene, const ang_table_texture *table, bool both_ends);
 
-/* Adds to the plan what the scene itself takes, whatever the method, and everything that was decided. */
-void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume *volume,
-                       const ang_plan_decisions *decisions);
 /* Adds how steps are classified in mode dvr. */
 void ang_scene_explain_steps(ang_plan *plan, const ang_scene *scene, const ang_table_texture *table);
 

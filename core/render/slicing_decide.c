@@ -65,7 +65,8 @@ static void find_facts(const ang_renderer *renderer, const ang_scene *scene, con
                        ang_slicing *s) {
     const ang_octree *octree = renderer->octree;
     s->facts = ang_facts_make(ANG_DRAW_SLICES, renderer->gl, renderer->volume, scene, options, &s->frame,
-                              &renderer->table, s->length);
+                              &renderer->table.cache, s->length);
+    ang_table_texture_facts(&renderer->table, scene, &s->facts);
     s->facts.apron = apron_of(s);
     s->facts.most_apron = MOST_APRON;
     s->facts.all_shows = ang_visibility_of_all(&s->visibility, octree->level[octree->levels - 1].nodes[0]);
@@ -126,7 +127,7 @@ bool ang_slicing_decide(ang_renderer *renderer, const ang_scene *scene, const an
                                     s->planes.distance, err))
         return false;
     s->whole_steps = ang_scene_whole_steps(scene, &renderer->table);
-    s->visibility = ang_visibility_make(volume, scene, renderer->table.tables);
+    s->visibility = ang_visibility_make(volume, scene, renderer->table.cache.tables);
     s->needs.weight = ang_scene_needs_weight(scene, volume);
     s->needs.reach = ang_scene_needs_phong(scene);
     s->length = step_length(scene, &s->frame, &s->planes);

@@ -6,21 +6,14 @@
 #include "core/render/context.h"
 #include "core/render/prefix_texture.h"
 #include "core/render/program.h"
-#include "core/transfer/tables.h"
+#include "core/transfer/table_cache.h"
 
 /* The entries of ang_transfer_tables as a buffer texture of GL_RGBA32F. Zero-initialise; owns all. */
 typedef struct ang_table_texture {
+    ang_table_cache cache;
     unsigned buffer, texture;
     unsigned extinctions, extinction_texture; /* GL_R32F: extinction alone; where one_colour, else 0 */
-    ang_transfer_tables *tables;              /* NULL before the first update */
-    double greatest;                          /* extinction per mm of any entry */
-    bool one_colour;                          /* whatever has extinction has the same colour... */
-    double colour[3];                         /* ... which is this */
-    ang_transfer_point *points;               /* what they were made from */
-    size_t count;
-    double unit_distance;
-    bool by_extinction;
-    ang_stiffness stiffness; /* of the transfer function in the volume, once it has been asked for */
+    ang_stiffness stiffness;                  /* of the transfer function in the volume, once it has been asked for */
     bool measured;
     ang_classification classification; /* of the last ang_table_texture_classify; of use in mode dvr alone */
     ang_prefix_texture prefix;         /* made when it is first used */

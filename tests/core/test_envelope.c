@@ -5,6 +5,7 @@
 #include "core/render/envelope_hull.h"
 #include "core/render/gradient_texture.h"
 #include "core/render/leaf_ranges.h"
+#include "core/render/skip_grid.h"
 
 #include <string.h>
 
@@ -134,9 +135,9 @@ static void gradients_made_beforehand_shade_the_same(void **state) {
         scene.iso_hu = iso;
         ang_visibility visibility = ang_visibility_make(volume, &scene, NULL);
         assert_true(ang_skip_grid_update(&grid, gl, volume, NULL, &visibility, 1, &err));
-        assert_true(ang_gradient_texture_update(&gradients, gl, volume, &grid, 2, &err));
-        assert_int_equal(gradients.blocks_filled, grid.visible_blocks);
-        assert_true(gradients.blocks_filled > filled && gradients.blocks_filled < grid.blocks);
+        assert_true(ang_gradient_texture_update(&gradients, gl, volume, &grid.shown, 2, &err));
+        assert_int_equal(gradients.blocks_filled, grid.shown.visible_blocks);
+        assert_true(gradients.blocks_filled > filled && gradients.blocks_filled < grid.shown.blocks);
         filled = gradients.blocks_filled;
     }
     ang_gradient_texture_destroy(&gradients);
@@ -226,7 +227,7 @@ static void the_hull_follows_what_shows(void **state) {
         scene.iso_hu = isos[i];
         ang_visibility visibility = ang_visibility_make(volume, &scene, NULL);
         assert_true(ang_skip_grid_update(&grid, gl, volume, NULL, &visibility, 1, &err));
-        assert_true(ang_envelope_hull_update(&hull, gl, &grid, &frame, 100000, &err));
+        assert_true(ang_envelope_hull_update(&hull, gl, &grid.shown, &frame, 100000, &err));
         assert_int_equal(hull.made_now, made[i]);
         assert_int_equal(hull.cells.side, 1);
         assert_int_equal(hull.faces, isos[i] > 4000 ? 0 : hull.cells.faces);
@@ -234,9 +235,9 @@ static void the_hull_follows_what_shows(void **state) {
         assert_true(made[i] || grid.blocks_uploaded == 0);
     }
     size_t fine = hull.faces;
-    assert_true(ang_envelope_hull_update(&hull, gl, &grid, &frame, fine - 1, &err));
+    assert_true(ang_envelope_hull_update(&hull, gl, &grid.shown, &frame, fine - 1, &err));
     assert_int_equal(hull.cells.side, 2);
-    assert_true(ang_envelope_hull_update(&hull, gl, &grid, &frame, 5, &err));
+    assert_true(ang_envelope_hull_update(&hull, gl, &grid.shown, &frame, 5, &err));
     assert_int_equal(hull.cells.side, 0);
     ang_envelope_hull_destroy(&hull);
     ang_skip_grid_destroy(&grid);
