@@ -84,6 +84,9 @@ static ang_decision spared(const ang_plan_facts *facts, ang_part part, const cha
 }
 
 static bool is_surface(const ang_plan_facts *facts) { return facts->mode == ANG_MODE_ISO; }
+static bool needs_gl(const ang_plan_facts *facts) {
+    return facts->drawing != ANG_DRAW_REFERENCE && facts->drawing != ANG_DRAW_LANES;
+}
 static bool has_table(const ang_plan_facts *facts) { return facts->mode == ANG_MODE_DVR || is_surface(facts); }
 
 static ang_decision decide_gradients(const ang_plan_facts *facts) {
@@ -123,7 +126,9 @@ static ang_decision decide_termination(const ang_plan_facts *facts) {
     if (!(facts->termination < 1)) return no_place("rays are not to end early");
     if (is_surface(facts)) return needed();
     /* In one pass it is one more comparison of a loop that ends by another: leaving it out gains nothing. */
-    if (facts->drawing == ANG_DRAW_WHOLE_RAYS || facts->drawing == ANG_DRAW_ENVELOPE) return needed();
+    if (facts->drawing == ANG_DRAW_WHOLE_RAYS || facts->drawing == ANG_DRAW_ENVELOPE ||
+        facts->drawing == ANG_DRAW_LANES)
+        return needed();
     if (-expm1(-facts->extinction * facts->longest_mm) < facts->termination)
         return spared(facts, ANG_PART_TERMINATION, "no ray can reach the threshold");
     if (facts->drawing == ANG_DRAW_SLICES && facts->fragments < ang_plan_least_fragments * facts->pixels)
@@ -183,7 +188,7 @@ static ang_decision decide_border(const ang_plan_facts *facts) {
 }
 
 static ang_decision decide_slabs(const ang_plan_facts *facts, const ang_decision *skipping) {
-    if (facts->drawing == ANG_DRAW_REFERENCE) return no_place("nothing is uploaded");
+    if (!needs_gl(facts)) return no_place("nothing is uploaded");
     bool skips = skipping->used && !skipping->why;
     /* A step is classified by the values at its ends, which may lie among what does not show. */
     if (!facts->texture_shared || facts->whole_steps || !skips || !(facts->share_uploaded < 1)) return needed();
@@ -239,8 +244,7 @@ ang_plan_decisions ang_plan_decide(const ang_plan_facts *facts) {
     to[ANG_PART_REDRAW] = facts->same_as_before
                               ? spared(facts, ANG_PART_REDRAW, "nothing has changed since the picture before")
                               : needed();
-    to[ANG_PART_GL] =
-        facts->drawing == ANG_DRAW_REFERENCE ? spared(facts, ANG_PART_GL, "this method needs none") : needed();
+    to[ANG_PART_GL] = !needs_gl(facts) ? spared(facts, ANG_PART_GL, "this method needs none") : needed();
     to[ANG_PART_GRADIENT_TEXTURE] = decide_gradient_texture(facts, &to[ANG_PART_SKIPPING]);
     to[ANG_PART_JOINED] = decide_joined(facts, &to[ANG_PART_SKIPPING]);
     return d;

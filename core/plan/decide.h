@@ -44,6 +44,7 @@ typedef enum ang_skipping { ANG_SKIP_BOTH, ANG_SKIP_OUTSIDE, ANG_SKIP_BETWEEN } 
 /* How a picture is drawn, as far as decisions differ. */
 typedef enum ang_drawing {
     ANG_DRAW_REFERENCE,
+    ANG_DRAW_LANES, /* rays on the processor */
     ANG_DRAW_WHOLE_RAYS,
     ANG_DRAW_ENVELOPE,
     ANG_DRAW_PASSES,

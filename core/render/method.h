@@ -110,6 +110,7 @@ const ang_method *ang_method_find(const char *name);
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                                     const ang_render_options *options, const char **why);
 
+extern const ang_method ang_method_cpu;
 extern const ang_method ang_method_reference;
 extern const ang_method ang_method_singlepass;
 extern const ang_method ang_method_slicing;

@@ -1,0 +1,344 @@
+/* Rays on the processor: the lattice, tables and skipping of the methods that need OpenGL, in SIMD on all cores. */
+#include "core/cpu/method_cpu.h"
+
+#include "core/base/clock.h"
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/render/facts.h"
+#include "core/scene/object_layer.h"
+#include "core/scene/objects.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Samples of a ray are counted in float. */
+static const double most_samples = 4e6;
+
+struct ang_renderer {
+    const ang_volume *volume;
+    ang_cast_width width;
+    uint16_t *wide;    /* the values, where the volume's rows are of one voxel */
+    uint16_t *weights; /* made when a mean first needs them */
+    ang_table_cache table;
+    ang_block_grid grid;
+    ang_object_layer objects;
+};
+
+/* What is decided about one picture. */
+typedef struct decision {
+    ang_ray_frame frame;
+    ang_visibility visibility;
+    ang_plan_facts facts;
+    ang_plan_decisions plan;
+    double step; /* mm */
+} decision;
+
+static bool uses(const decision *d, ang_part part) { return ang_plan_uses(&d->plan, part); }
+
+static void destroy(ang_renderer *renderer) {
+    if (!renderer) return;
+    ang_object_layer_clear(&renderer->objects);
+    ang_block_grid_clear(&renderer->grid);
+    ang_table_cache_clear(&renderer->table);
+    free(renderer->weights);
+    free(renderer->wide);
+    free(renderer);
+}
+
+/* Voxels in a row as the loops read them: at least two. */
+static int row_width(const ang_volume *volume) { return volume->dims[0] > 1 ? volume->dims[0] : 2; }
+
+static size_t row_count(const ang_volume *volume) { return (size_t)volume->dims[1] * (size_t)volume->dims[2]; }
+
+static bool widen(ang_renderer *renderer, ang_error *err) {
+    const ang_volume *volume = renderer->volume;
+    if (volume->dims[0] > 1) return true;
+    renderer->wide = ang_alloc(2 * row_count(volume), sizeof *renderer->wide, "rows of the volume", err);
+    if (!renderer->wide) return false;
+    for (size_t i = 0; i < row_count(volume); i++) renderer->wide[2 * i] = renderer->wide[2 * i + 1] = volume->data[i];
+    return true;
+}
+
+static ang_renderer *create(ang_gl *gl, const ang_volume *volume, const ang_render_options *options, ang_error *err) {
+    (void)gl, (void)options;
+    if (ang_volume_count(volume) > INT32_MAX) {
+        ang_fail(err, ANG_LIMIT,
+                 "volume of %dx%dx%d voxels: --method cpu takes at most 2147483647 of them; choose --method slicing",
+                 volume->dims[0], volume->dims[1], volume->dims[2]);
+        return NULL;
+    }
+    ang_renderer *renderer = ang_alloc(1, sizeof *renderer, "the ray caster", err);
+    if (!renderer) return NULL;
+    renderer->volume = volume;
+    ang_cast_width widths[ANG_CAST_WIDTHS];
+    ang_cast_widths(widths);
+    renderer->width = widths[0];
+    if (widen(renderer, err)) return renderer;
+    destroy(renderer);
+    return NULL;
+}
+
+void ang_cpu_set_width(ang_renderer *renderer, const ang_cast_width *width) { renderer->width = *width; }
+
+static void fill_weights(void *context, size_t begin, size_t end, int worker) {
+    (void)worker;
+    const ang_renderer *renderer = context;
+    const ang_volume *volume = renderer->volume;
+    size_t width = (size_t)row_width(volume), voxels = (size_t)volume->dims[0];
+    for (size_t row = begin; row < end; row++)
+        for (size_t x = 0; x < width; x++) {
+            size_t voxel = row * voxels + (x < voxels ? x : voxels - 1);
+            renderer->weights[row * width + x] = ang_volume_is_padding(volume, voxel) ? 0 : UINT16_MAX;
+        }
+}
+
+static bool prepare_weights(ang_renderer *renderer, const ang_scene *scene, int threads, ang_error *err) {
+    const ang_volume *volume = renderer->volume;
+    if (!ang_scene_needs_weight(scene, volume) || renderer->weights) return true;
+    renderer->weights =
+        ang_alloc(row_count(volume) * (size_t)row_width(volume), sizeof *renderer->weights, "weights of voxels", err);
+    if (!renderer->weights) return false;
+    ang_parallel_for(row_count(volume), 256, threads, fill_weights, renderer);
+    return true;
+}
+
+/* Which blocks show, where rays may skip those that do not. */
+static bool update_grid(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
+    ang_block_grid *grid = &renderer->grid;
+    if (!grid->octree && !ang_block_grid_start(grid, renderer->volume, NULL, options->threads, err)) {
+        ang_block_grid_clear(grid);
+        return false;
+    }
+    bool changed;
+    ang_block_grid_update(grid, &d->visibility, true, options->threads, &changed);
+    d->facts.blocks = grid->blocks;
+    d->facts.shown = grid->visible_blocks;
+    return true;
+}
+
+/* Decides as far as is known, builds what that takes, and decides again. */
+static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, decision *d,
+                   ang_error *err) {
+    const ang_volume *volume = renderer->volume;
+    *d = (decision){.step = 0};
+    renderer->grid.build_ms = 0;
+    if (!(options->step_voxels > 0))
+        return ang_fail(err, ANG_USAGE, "--step %g: give a positive multiple of the smallest spacing",
+                        options->step_voxels);
+    if (!ang_scene_check(scene, err) || !ang_ray_frame_make(volume, scene, &d->frame, err)) return false;
+    d->step = fmax(options->step_voxels * ang_volume_smallest_spacing(volume),
+                   2 * ang_volume_half_diagonal(volume) / most_samples);
+    bool made;
+    if (ang_scene_needs_table(scene) &&
+        !ang_table_cache_update(&renderer->table, scene->transfer, volume, 0, &made, err))
+        return false;
+    if (!prepare_weights(renderer, scene, options->threads, err)) return false;
+    if (scene->objects && !ang_object_layer_make(&renderer->objects, volume, scene, &d->frame, options->threads, err))
+        return false;
+    d->visibility = ang_visibility_make(volume, scene, renderer->table.tables);
+    d->facts =
+        ang_facts_make(ANG_DRAW_LANES, NULL, volume, scene, options, &d->frame, &renderer->table, 1.01 * d->step);
+    d->plan = ang_plan_decide(&d->facts);
+    if (uses(d, ANG_PART_SKIPPING) && !update_grid(renderer, options, d, err)) return false;
+    d->plan = ang_plan_decide(&d->facts);
+    return true;
+}
+
+static ang_cast_kind choose_kind(const ang_scene *scene, const ang_volume *volume, const decision *d) {
+    switch (scene->mode) {
+    case ANG_MODE_MIP:
+        return ANG_CAST_HIGHEST;
+    case ANG_MODE_MINIP:
+        return ANG_CAST_LOWEST;
+    case ANG_MODE_MEAN:
+        return ang_scene_needs_weight(scene, volume) ? ANG_CAST_MEAN_WEIGHTED : ANG_CAST_MEAN;
+    case ANG_MODE_ISO:
+        return ANG_CAST_SURFACE;
+    case ANG_MODE_DVR:
+        break;
+    }
+    return uses(d, ANG_PART_GRADIENTS) ? ANG_CAST_LIGHT_PHONG : ANG_CAST_LIGHT;
+}
+
+static void set_volume(ang_cast *cast, const ang_renderer *renderer) {
+    const ang_volume *volume = renderer->volume;
+    cast->values = renderer->wide ? renderer->wide : volume->data;
+    cast->weights = renderer->weights;
+    cast->row = volume->dims[1] > 1 ? row_width(volume) : 0;
+    cast->slice = volume->dims[2] > 1 ? row_width(volume) * volume->dims[1] : 0;
+    int longest = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        cast->last[axis] = volume->dims[axis] - 1;
+        cast->top[axis] = cast->last[axis] > 0 ? nextafterf((float)cast->last[axis], 0) : 0;
+        longest = volume->dims[axis] > longest ? volume->dims[axis] : longest;
+    }
+    /* Places are rounded to half a unit in the last place twice over. */
+    cast->room = (float)longest * 0x1p-22f;
+}
+
+static void set_grid(ang_cast *cast, const ang_renderer *renderer, const decision *d) {
+    cast->skips = uses(d, ANG_PART_SKIPPING);
+    if (!cast->skips) return;
+    cast->distance = renderer->grid.distance;
+    const ang_octree *octree = renderer->grid.octree;
+    memcpy(cast->blocks, octree->level[0].dims, sizeof cast->blocks);
+    for (int i = 0; i < ANG_CAST_LEVELS; i++) {
+        int level = i < octree->levels ? i : octree->levels - 1;
+        cast->ranges[i].nodes = octree->level[level].nodes;
+        cast->ranges[i].shift = level;
+        for (int side = ANG_SKIP_BLOCK; side > 1; side /= 2) cast->ranges[i].shift++;
+        memcpy(cast->ranges[i].dims, octree->level[level].dims, sizeof cast->ranges[i].dims);
+    }
+}
+
+static void set_table(ang_cast *cast, const ang_renderer *renderer, const decision *d) {
+    const ang_table_cache *table = &renderer->table;
+    if (!table->tables) return;
+    cast->entries = table->tables->entries;
+    cast->extinctions = table->extinctions;
+    cast->first = (float)table->tables->first;
+    cast->per_value = (float)table->tables->per_value;
+    cast->intervals = table->tables->intervals;
+    cast->jumps = uses(d, ANG_PART_ROUNDING);
+    cast->thin = !uses(d, ANG_PART_EXPONENTIAL);
+    cast->one_colour = !uses(d, ANG_PART_COLOUR);
+    for (int c = 0; c < 3; c++) cast->colour[c] = (float)table->colour[c];
+}
+
+static void set_phong(ang_cast *cast, const ang_volume *volume, const ang_scene *scene, const decision *d) {
+    /* Shading that is forced although there is none must change nothing. */
+    bool shades = ang_scene_needs_phong(scene);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            cast->gradient_to_mm[i][k] = (float)(0.5 * volume->slope * d->frame.to_index.m[k][i]);
+    cast->half_slope = (float)(0.5 * volume->slope);
+    cast->ambient = shades ? (float)scene->phong.ambient : 1;
+    cast->diffuse = shades ? (float)scene->phong.diffuse : 0;
+    cast->specular = shades ? (float)scene->phong.specular : 0;
+    cast->power = (float)scene->phong.power;
+    bool whole = scene->phong.power >= 0 && scene->phong.power <= 1024 && fmod(scene->phong.power, 1) == 0;
+    cast->whole_power = whole ? (int)scene->phong.power : -1;
+    cast->g0 = (float)scene->phong.g0;
+}
+
+static void set_values(ang_cast *cast, const ang_volume *volume, const ang_scene *scene) {
+    /* A window of no width is a threshold; its scale must stay finite. */
+    double width = fmax(scene->window_width, 1e-9);
+    cast->window_lower = (float)ang_volume_stored(volume, scene->window_centre - width / 2);
+    cast->window_scale = (float)(volume->slope / width);
+    cast->enough = cast->window_lower;
+    if (scene->mode == ANG_MODE_MIP) cast->enough += 1 / cast->window_scale;
+    while (scene->mode == ANG_MODE_MIP && !((cast->enough - cast->window_lower) * cast->window_scale >= 1))
+        cast->enough = nextafterf(cast->enough, INFINITY);
+    /* Without padding any base will do: one near the values keeps the sums small. */
+    double middle = 0.5 * (volume->minimum + volume->maximum);
+    cast->mean_base = volume->padding ? ang_volume_padding_value(volume) : (float)middle;
+    cast->mean_empty = (float)ang_volume_stored(volume, -1000);
+    if (scene->mode != ANG_MODE_ISO) return;
+    double colour[3];
+    ang_transfer_colour(scene->transfer, scene->iso_hu, colour);
+    cast->iso = (float)ang_volume_stored(volume, scene->iso_hu);
+    for (int c = 0; c < 3; c++) cast->iso_colour[c] = (float)colour[c];
+}
+
+static ang_cast make_cast(const ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                          const decision *d, ang_image *image) {
+    ang_cast cast = {.kind = choose_kind(scene, renderer->volume, d),
+                     .frame = d->frame,
+                     .width = scene->width,
+                     .height = scene->height,
+                     .step = (float)d->step,
+                     .termination = (float)options->termination,
+                     .rgba = image->rgba};
+    if (scene->objects && ang_scene_limits_rays(scene)) cast.limit_mm = renderer->objects.limit_mm;
+    set_volume(&cast, renderer);
+    set_grid(&cast, renderer, d);
+    set_table(&cast, renderer, d);
+    set_phong(&cast, renderer->volume, scene, d);
+    set_values(&cast, renderer->volume, scene);
+    return cast;
+}
+
+typedef struct picture_job {
+    const ang_cast *cast;
+    ang_cast_tile *tile;
+    size_t columns, tiles;
+    const ang_progress *progress;
+    atomic_size_t done;
+    atomic_bool cancelled;
+    struct {
+        _Alignas(64) ang_cast_took took; /* no two threads write to one line of the cache */
+    } worker[ANG_MAX_THREADS];
+} picture_job;
+
+static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
+    picture_job *job = context;
+    ang_cast_took *took = &job->worker[worker].took;
+    for (size_t i = begin; i < end; i++) {
+        if (atomic_load_explicit(&job->cancelled, memory_order_relaxed)) return;
+        job->tile(job->cast, (int)(i % job->columns) * ANG_CAST_TILE, (int)(i / job->columns) * ANG_CAST_TILE, took);
+    }
+    double done = (double)(atomic_fetch_add(&job->done, end - begin) + end - begin) / (double)job->tiles;
+    if (!ang_progress_update(job->progress, "rendering", done)) atomic_store(&job->cancelled, true);
+}
+
+static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
+                   ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
+    decision d;
+    if (!decide(renderer, scene, options, &d, err)) return false;
+    ang_cast cast = make_cast(renderer, scene, options, &d, image);
+    cast.counts = stats ? stats->counts : NULL;
+    size_t columns = ((size_t)scene->width + ANG_CAST_TILE - 1) / ANG_CAST_TILE;
+    size_t rows = ((size_t)scene->height + ANG_CAST_TILE - 1) / ANG_CAST_TILE;
+    picture_job job = {
+        .cast = &cast, .tile = renderer->width.tile, .columns = columns, .tiles = columns * rows, .progress = progress};
+    ang_parallel_for(job.tiles, 4, options->threads, draw_tiles, &job);
+    if (job.cancelled) return ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering");
+    if (scene->objects) ang_object_layer_join(&renderer->objects, scene, image);
+    ang_cast_took took = {0};
+    for (int i = 0; i < ANG_MAX_THREADS; i++) {
+        took.samples += job.worker[i].took.samples;
+        took.rays += job.worker[i].took.rays;
+    }
+    if (stats)
+        *stats = (ang_frame_stats){.counts = stats->counts,
+                                   .samples = took.samples,
+                                   .fragments = took.rays,
+                                   .step_mm = d.step,
+                                   .bricks_drawn = cast.skips ? renderer->grid.visible_blocks : 1,
+                                   .bricks_total = cast.skips ? renderer->grid.blocks : 1,
+                                   .passes = 1,
+                                   .octree_ms = renderer->grid.build_ms};
+    return true;
+}
+
+static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
+                    ang_error *err) {
+    decision d;
+    if (!decide(renderer, scene, options, &d, err)) return false;
+    ang_plan_use(plan, "%s, %d threads", renderer->width.name, ang_thread_count(options->threads));
+    ang_plan_use(plan, "the volume as it lies in memory");
+    const ang_block_grid *grid = &renderer->grid;
+    if (uses(&d, ANG_PART_SKIPPING)) {
+        ang_plan_use(plan,
+                     "skipping by the distance to the next visible block: %zu of %zu blocks of %d cells a side show",
+                     grid->visible_blocks, grid->blocks, ANG_SKIP_BLOCK);
+        if (grid->visible_blocks < grid->blocks)
+            ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s",
+                               grid->blocks - grid->visible_blocks, grid->blocks, ang_visibility_reason(scene->mode));
+    }
+    ang_scene_explain(plan, scene, renderer->volume, &d.plan);
+    return true;
+}
+
+const ang_method ang_method_cpu = {
+    .name = "cpu",
+    .title = "rays on the processor, in SIMD on all cores, skipping what shows nothing",
+    .source = "DESIGN.md, Rendering methods; numerics.md",
+    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_NO_SKIP,
+    .create = create,
+    .render = render,
+    .explain = explain,
+    .destroy = destroy,
+};
