@@ -5,6 +5,8 @@
 #include "core/cpu/cast.h"
 #include "core/cpu/lanes.h"
 
+#include <stdbool.h>
+
 /* Where a sample lies among voxels. */
 typedef struct spot {
     lanes_int cell[3];
@@ -54,40 +56,58 @@ INLINE lanes interpolate(const ang_cast *cast, const uint16_t *values, const spo
     return interpolate_at(&r, place, s->inside);
 }
 
-/* Differences of the field one voxel ahead and one behind along each axis (DESIGN.md, "Gradient"): the cells there
- * share their fractions with this one, so that a row of four voxels serves both. Clamped voxels stand for clamped
- * places. */
-INLINE void differences(const ang_cast *cast, const spot *s, lanes out[3]) {
+/* Of the four rows that a cell lies between: interpolated along x, and the difference of what is ahead and behind. */
+INLINE void differences_along_x(const ang_cast *cast, const spot *s, lanes row[4], lanes difference[4]) {
     const rows r = rows_of(cast, cast->values);
-    const lanes *f = s->inside;
+    const lanes f = s->inside[0];
+    lanes_int first = s->cell[0] == 0, last = s->cell[0] >= cast->last[0] - 1;
+    lanes_int behind[4], ahead[4];
     int place[LANES];
-    lanes_int behind[3], ahead[3], here[4], before[4], after[4];
+    lanes_store_int(place, s->at);
+    LANES_IN_MEMORY(place);
+    bool border = lanes_bits(first | last);
+    if (!border) {
+        lanes_int word[4];
+        lanes_rows_of_four(r.row, place, word);
+        behind[0] = word[0], ahead[0] = word[1], behind[1] = word[2], ahead[1] = word[3];
+        lanes_rows_of_four(r.row + 2, place, word);
+        behind[2] = word[0], ahead[2] = word[1], behind[3] = word[2], ahead[3] = word[3];
+    } else {
+        /* Clamped voxels stand for clamped places. */
+        lanes_int here[4];
+        lanes_words(r.row, place, here);
+        lanes_store_int(place, s->at + ~first);
+        LANES_IN_MEMORY(place);
+        lanes_words(r.row, place, behind);
+        lanes_store_int(place, s->at - ~last);
+        LANES_IN_MEMORY(place);
+        lanes_words(r.row, place, ahead);
+        for (int i = 0; i < 4; i++) {
+            behind[i] = (behind[i] & 0xffff) | here[i] << 16;
+            ahead[i] = (lanes_int)((lanes_uint)here[i] >> 16) | (ahead[i] & ~0xffff);
+        }
+    }
+    for (int i = 0; i < 4; i++) {
+        lanes v0 = high_of(behind[i]), v1 = low_of(ahead[i]);
+        row[i] = mix(v0, v1, f);
+        difference[i] = mix(v1, high_of(ahead[i]), f) - mix(low_of(behind[i]), v0, f);
+    }
+}
+
+/* Differences of the field one voxel ahead and one behind along each axis (DESIGN.md, "Gradient"): the cells there
+ * share their fractions with this one, so that a row of four voxels serves both. */
+INLINE void differences(const ang_cast *cast, const spot *s, lanes out[3]) {
+    const lanes *f = s->inside;
     const int *last = cast->last;
-    behind[0] = s->at + (s->cell[0] > 0);
-    ahead[0] = s->at - (s->cell[0] < last[0] - 1);
+    lanes row[4], d[4];
+    differences_along_x(cast, s, row, d);
+    out[0] = mix(mix(d[0], d[1], f[1]), mix(d[2], d[3], f[1]), f[2]);
+
+    lanes_int behind[3], ahead[3], word[4]; /* by axis; [0] unused */
     behind[1] = s->at - (lanes_all_int(cast->row) & (s->cell[1] > 0));
     ahead[1] = s->at + cast->row + (lanes_all_int(cast->row) & (s->cell[1] < last[1] - 1));
     behind[2] = s->at - (lanes_all_int(cast->slice) & (s->cell[2] > 0));
     ahead[2] = s->at + cast->slice + (lanes_all_int(cast->slice) & (s->cell[2] < last[2] - 1));
-
-    lanes_store_int(place, s->at);
-    LANES_IN_MEMORY(place);
-    lanes_words(r.row, place, here);
-    lanes_store_int(place, behind[0]);
-    LANES_IN_MEMORY(place);
-    lanes_words(r.row, place, before);
-    lanes_store_int(place, ahead[0]);
-    LANES_IN_MEMORY(place);
-    lanes_words(r.row, place, after);
-    lanes row[4], d[4];
-    for (int i = 0; i < 4; i++) {
-        lanes v0 = low_of(here[i]), v1 = high_of(here[i]);
-        row[i] = mix(v0, v1, f[0]);
-        d[i] = mix(v1, high_of(after[i]), f[0]) - mix(low_of(before[i]), v0, f[0]);
-    }
-    out[0] = mix(mix(d[0], d[1], f[1]), mix(d[2], d[3], f[1]), f[2]);
-
-    lanes_int word[4];
     lanes_two_words(cast->values, behind[1], ahead[1], cast->slice, word);
     lanes near = mix(row[1], along_x(word[2], f[0]), f[1]) - mix(along_x(word[0], f[0]), row[0], f[1]);
     lanes far = mix(row[3], along_x(word[3], f[0]), f[1]) - mix(along_x(word[1], f[0]), row[2], f[1]);

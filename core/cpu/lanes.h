@@ -203,6 +203,24 @@ INLINE void lanes_words(const uint16_t *const base[4], const int place[LANES], l
                       load_word(base[3] + place[l])};
     lanes_transpose(x, out);
 }
+/* Eight bytes from each. */
+INLINE quad load_halves(const void *first, const void *second) {
+#if defined(__SSE2__)
+    __m128 low = _mm_loadl_pi(_mm_setzero_ps(), first);
+    return (quad)_mm_loadh_pi(low, second);
+#else
+    quad x;
+    memcpy(&x, first, 8);
+    memcpy((char *)&x + 8, second, 8);
+    return x;
+#endif
+}
+/* Of every lane the four neighbours at base[0][place - 1] and base[1][place - 1], two to a word. */
+INLINE void lanes_rows_of_four(const uint16_t *const base[2], const int place[LANES], lanes_int out[4]) {
+    quad x[LANES];
+    for (int l = 0; l < LANES; l++) x[l] = load_halves(base[0] + place[l] - 1, base[1] + place[l] - 1);
+    lanes_transpose(x, out);
+}
 /* Of every lane the pairs at base[a], base[a + offset], base[b], base[b + offset]. */
 INLINE void lanes_two_words(const uint16_t *base, lanes_int a, lanes_int b, ptrdiff_t offset, lanes_int out[4]) {
     int place[2][LANES];
@@ -238,17 +256,6 @@ INLINE lanes_int lanes_bytes(const uint8_t *base, lanes_int at) {
         x[l / 4] = (quad){base[place[l]], base[place[l + 1]], base[place[l + 2]], base[place[l + 3]]};
     return lanes_join(x, 1);
 }
-INLINE quad load_pairs(const float *first, const float *second) {
-#if defined(__SSE2__)
-    __m128 low = _mm_loadl_pi(_mm_setzero_ps(), (const __m64 *)first);
-    return (quad)_mm_loadh_pi(low, (const __m64 *)second);
-#else
-    quad x;
-    memcpy(&x, first, 8);
-    memcpy((char *)&x + 8, second, 8);
-    return x;
-#endif
-}
 /* The pairs base[2 at], base[2 at + 1]. */
 INLINE void lanes_pairs(const float *base, lanes_int at, lanes *first, lanes *second) {
     int place[LANES];
@@ -256,7 +263,7 @@ INLINE void lanes_pairs(const float *base, lanes_int at, lanes *first, lanes *se
     lanes_store_int(place, at);
     LANES_IN_MEMORY(place);
     for (int l = 0; l < LANES; l += 2)
-        x[l / 2] = load_pairs(base + 2 * (ptrdiff_t)place[l], base + 2 * (ptrdiff_t)place[l + 1]);
+        x[l / 2] = load_halves(base + 2 * (ptrdiff_t)place[l], base + 2 * (ptrdiff_t)place[l + 1]);
     lanes a = (lanes)lanes_join(x, 2), b = (lanes)lanes_join(x + 1, 2);
     *first = SHUFFLE(a, b, 0, 2, 4, 6);
     *second = SHUFFLE(a, b, 1, 3, 5, 7);

@@ -21,6 +21,9 @@ struct ang_renderer {
     uint16_t *wide;    /* the values, where the volume's rows are of one voxel */
     uint16_t *weights; /* made when a mean first needs them */
     ang_table_cache table;
+    ang_stiffness stiffness; /* of the table's transfer function in the volume, where `measured` */
+    bool measured;
+    ang_classification classification;
     ang_block_grid grid;
     ang_object_layer objects;
 };
@@ -103,6 +106,17 @@ static bool prepare_weights(ang_renderer *renderer, const ang_scene *scene, int 
     return true;
 }
 
+/* Steps are classified by their middles, whatever the data ask for; where that may miss a peak the user is told. */
+static void classify(ang_renderer *renderer, const ang_scene *scene, double step) {
+    if (scene->mode != ANG_MODE_DVR) return;
+    if (!renderer->measured) {
+        renderer->stiffness = ang_stiffness_of(scene->transfer);
+        ang_stiffness_measure(&renderer->stiffness, renderer->volume);
+        renderer->measured = true;
+    }
+    renderer->classification = ang_classification_choose(ANG_CLASSIFY_MIDPOINT, &renderer->stiffness, step);
+}
+
 /* Which blocks show, where rays may skip those that do not. */
 static bool update_grid(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
     ang_block_grid *grid = &renderer->grid;
@@ -129,10 +143,12 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     if (!ang_scene_check(scene, err) || !ang_ray_frame_make(volume, scene, &d->frame, err)) return false;
     d->step = fmax(options->step_voxels * ang_volume_smallest_spacing(volume),
                    2 * ang_volume_half_diagonal(volume) / most_samples);
-    bool made;
+    bool made = false;
     if (ang_scene_needs_table(scene) &&
         !ang_table_cache_update(&renderer->table, scene->transfer, volume, 0, &made, err))
         return false;
+    if (made) renderer->measured = false;
+    classify(renderer, scene, d->step);
     if (!prepare_weights(renderer, scene, options->threads, err)) return false;
     if (scene->objects && !ang_object_layer_make(&renderer->objects, volume, scene, &d->frame, options->threads, err))
         return false;
@@ -296,6 +312,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     ang_parallel_for(job.tiles, 4, options->threads, draw_tiles, &job);
     if (job.cancelled) return ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering");
     if (scene->objects) ang_object_layer_join(&renderer->objects, scene, image);
+    bool light = scene->mode == ANG_MODE_DVR, misses = light && renderer->classification.may_miss;
     ang_cast_took took = {0};
     for (int i = 0; i < ANG_MAX_THREADS; i++) {
         took.samples += job.worker[i].took.samples;
@@ -309,6 +326,8 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
                                    .bricks_drawn = cast.skips ? renderer->grid.visible_blocks : 1,
                                    .bricks_total = cast.skips ? renderer->grid.blocks : 1,
                                    .passes = 1,
+                                   .classification = light ? ANG_CLASSIFY_MIDPOINT : ANG_CLASSIFY_AUTO,
+                                   .note = misses ? renderer->classification.warning : NULL,
                                    .octree_ms = renderer->grid.build_ms};
     return true;
 }
@@ -327,6 +346,11 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
         if (grid->visible_blocks < grid->blocks)
             ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s",
                                grid->blocks - grid->visible_blocks, grid->blocks, ang_visibility_reason(scene->mode));
+    }
+    if (scene->mode == ANG_MODE_DVR) {
+        ang_plan_use(plan, "mid-point classification");
+        ang_plan_leave_out(plan, "prefix-integrated classification", "this method has none%s",
+                           renderer->classification.may_miss ? ", though a peak may be missed" : "");
     }
     ang_scene_explain(plan, scene, renderer->volume, &d.plan);
     return true;
