@@ -150,9 +150,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     picture->render.skipping = strcmp(options->skipping, "outside") == 0   ? ANG_SKIP_OUTSIDE
                                : strcmp(options->skipping, "between") == 0 ? ANG_SKIP_BETWEEN
                                                                            : ANG_SKIP_BOTH;
-    picture->render.classification = strcmp(options->classification, "midpoint") == 0 ? ANG_CLASSIFY_MIDPOINT
-                                     : strcmp(options->classification, "prefix") == 0 ? ANG_CLASSIFY_PREFIX
-                                                                                      : ANG_CLASSIFY_AUTO;
+    picture->render.classification = (ang_classify)ang_classify_from_name(options->classification);
     picture->render.count_shown = options->count_shown;
     if (options->force && !ang_parts_parse(options->force, &picture->render.forced, err)) return false;
     picture->render.quads = options->quads;

@@ -212,8 +212,8 @@ void ang_report_cache_put_run(ang_report_cache *cache, const ang_report *report,
     cJSON_AddItemToObject(
         value, "counts",
         cJSON_CreateDoubleArray((double[]){(double)run->compared, (double)run->samples, (double)run->pixels,
-                                           run->passes, run->step_mm, run->rough_ms},
-                                6));
+                                           run->passes, run->step_mm, run->rough_ms, run->classification},
+                                7));
     cJSON_AddItemToObject(value, "frame_ms", cJSON_CreateDoubleArray(run->frame_ms, run->frames));
     char name[160];
     run_name(report, run, name);
@@ -228,7 +228,7 @@ bool ang_report_cache_get_run(ang_report_cache *cache, const ang_report *report,
     const cJSON *subset = cJSON_GetObjectItemCaseSensitive(value, "subset_error");
     const cJSON *counts = cJSON_GetObjectItemCaseSensitive(value, "counts");
     const cJSON *times = cJSON_GetObjectItemCaseSensitive(value, "frame_ms");
-    if (cJSON_GetArraySize(error) != 6 || cJSON_GetArraySize(subset) != 6 || cJSON_GetArraySize(counts) != 6)
+    if (cJSON_GetArraySize(error) != 6 || cJSON_GetArraySize(subset) != 6 || cJSON_GetArraySize(counts) != 7)
         return false;
     run->error = metrics_from(error);
     run->subset_error = metrics_from(subset);
@@ -238,6 +238,7 @@ bool ang_report_cache_get_run(ang_report_cache *cache, const ang_report *report,
     run->passes = (int)number(counts, 3);
     run->step_mm = number(counts, 4);
     run->rough_ms = number(counts, 5);
+    run->classification = (ang_classify)number(counts, 6);
     run->frames = 0;
     for (int i = 0; i < cJSON_GetArraySize(times) && i < ANG_REPORT_FRAMES; i++)
         run->frame_ms[run->frames++] = number(times, i);

@@ -42,6 +42,7 @@ static void add_run(FILE *out, const ang_report *report, const ang_report_run *r
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) add_number(out, run->drawn ? values[i] : (double)NAN);
     fprintf(out, ",%d,%d,%d,%d", run->estimated, run->front[ANG_REPORT_MAX], run->front[ANG_REPORT_P999],
             run->front[ANG_REPORT_RMS]);
+    fprintf(out, ",%s", run->drawn ? ang_classify_name(run->classification) : "");
     add_text(out, run->drawn ? "" : run->left_out);
     fputc('\n', out);
     (void)report;
@@ -61,12 +62,12 @@ bool ang_report_write_csv(const ang_report *report, const char *path, ang_error 
     if (!out) return ang_fail(err, ANG_LIMIT, "no memory for %s", path);
     fputs("group,method,step_voxels,switched,pixels,compared_pixels,max,p999,rms,psnr,ssim,flipped,subset_rms,"
           "time_median_ms,time_min_ms,time_max_ms,timed_frames,samples,samples_per_pixel,passes,step_mm,"
-          "time_estimated,front_max,front_p999,front_rms,left_out\n",
+          "time_estimated,front_max,front_p999,front_rms,classification,left_out\n",
           out);
     const ang_report_truth *truth = &report->truth;
     const ang_image *pixels = truth->whole.rgba ? &truth->whole : &truth->subset;
     double size_of_truth = (double)pixels->width * pixels->height;
-    fprintf(out, "reference,%s,,,%s,%.0f,0,0,0,inf,1,0,0,%.9g,,,%d,,,1,,%d,0,0,0,\"\"\n", ang_method_reference.name,
+    fprintf(out, "reference,%s,,,%s,%.0f,0,0,0,inf,1,0,0,%.9g,,,%d,,,1,,%d,0,0,0,,\"\"\n", ang_method_reference.name,
             truth->whole.rgba ? "all" : "subset", size_of_truth, truth->whole_ms, truth->whole_timed,
             !truth->whole_timed);
     for (size_t i = 0; i < report->run_count; i++) add_run(out, report, &report->run[i]);
@@ -109,6 +110,7 @@ static cJSON *run_json(const ang_report_run *run) {
     cJSON_AddNumberToObject(out, "samples", (double)run->samples);
     cJSON_AddNumberToObject(out, "samples_per_pixel", run->samples_per_pixel);
     cJSON_AddNumberToObject(out, "passes", run->passes);
+    cJSON_AddStringToObject(out, "classification", ang_classify_name(run->classification));
     ang_json_add_number(out, "step_mm", run->step_mm > 0 ? run->step_mm : NAN);
     cJSON *front = cJSON_AddObjectToObject(out, "front");
     cJSON_AddBoolToObject(front, "max", run->front[ANG_REPORT_MAX]);

@@ -62,19 +62,25 @@ bool ang_report_is_point(const ang_report_run *run) {
 }
 
 static bool judge_fronts(ang_report *report, ang_error *err) {
-    size_t count = report->run_count;
+    /* The exact method is a setting like any other where it has been timed: the last. */
+    bool exact = report->truth.whole.rgba && report->truth.whole_timed;
+    size_t count = report->run_count + exact;
     double *cost = ang_alloc(count, 2 * sizeof *cost + 1, "fronts", err);
     if (!cost) return false;
     double *error = cost + count;
     bool *front = (bool *)(error + count);
     for (int kind = 0; kind < ANG_REPORT_KINDS; kind++) {
-        for (size_t i = 0; i < count; i++) {
+        for (size_t i = 0; i < report->run_count; i++) {
             const ang_report_run *run = &report->run[i];
             cost[i] = ang_report_is_point(run) ? run->median_ms : (double)NAN;
             error[i] = ang_report_error(run, (ang_report_kind)kind);
         }
+        if (exact) {
+            cost[count - 1] = report->truth.whole_ms;
+            error[count - 1] = 0;
+        }
         ang_pareto_front(cost, error, count, ang_report_slack, front);
-        for (size_t i = 0; i < count; i++) report->run[i].front[kind] = front[i];
+        for (size_t i = 0; i < report->run_count; i++) report->run[i].front[kind] = front[i];
     }
     free(cost);
     return true;
@@ -119,8 +125,11 @@ static bool judge_orders(ang_report *report, ang_error *err) {
         if (any) judge_order(report, methods[m], &report->order[report->order_count++]);
     }
     const ang_volume *volume = report->volume;
+    bool prefix = false;
+    for (size_t i = 0; i < report->run_count; i++)
+        prefix |= report->run[i].group == ANG_REPORT_ORDERS && report->run[i].classification == ANG_CLASSIFY_PREFIX;
     report->expected = ang_order_expected(&report->picture.scene, ang_volume_hu(volume, volume->minimum),
-                                          ang_volume_hu(volume, volume->maximum));
+                                          ang_volume_hu(volume, volume->maximum), prefix);
     return true;
 }
 

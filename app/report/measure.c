@@ -122,6 +122,7 @@ static bool draw_first(bench *b, ang_report_run *run, ang_error *err) {
     bool good = compare(report, run, &image, err);
     run->samples = stats.samples;
     run->passes = stats.passes;
+    run->classification = stats.classification;
     run->step_mm = stats.step_mm;
     run->pixels = (uint64_t)image.width * (uint64_t)image.height;
     if (good && run->group == ANG_REPORT_STEPS && !run->subset) {
@@ -265,4 +266,21 @@ bool ang_report_measure(ang_report *report, ang_error *err) {
     }
     close_bench(&b);
     return done;
+}
+
+bool ang_report_picture(const ang_report *report, const ang_report_run *run, ang_image *image) {
+    const ang_scene *scene = &report->picture.scene;
+    char name[160];
+    if (!run || !run->drawn || run->subset) return false;
+    ang_report_picture_name(report, run, name);
+    if (ang_report_cache_get_image(report->cache, name, scene->width, scene->height, image)) return true;
+    ang_report again = *report;
+    ang_report_run same = *run;
+    bench b = {.report = &again, .methods = ang_methods(), .work = 1};
+    double milliseconds;
+    bool drawn = open_bench(&b, NULL) && draw(&b, &same, false, NULL, image, &milliseconds, NULL);
+    close_bench(&b);
+    if (drawn && ang_report_cache_put_image(report->cache, name, image, NULL))
+        ang_report_cache_use_image(report->cache, name);
+    return drawn;
 }

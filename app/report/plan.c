@@ -39,6 +39,7 @@ static ang_report_run *add(ang_report *report, ang_report_group group, const ang
     *run = (ang_report_run){
         .group = group, .method = method, .options = report->picture.render, .shading = report->picture.scene.shading};
     run->options.step_voxels = step;
+    run->options.forced |= 1u << ANG_PART_REDRAW; /* or frames that are timed would be copies of the one before */
     return run;
 }
 
@@ -73,8 +74,7 @@ static void add_switches(ang_report *report, const ang_method *method) {
         if (kind == (int)usual->classification) continue;
         run = add(report, ANG_REPORT_SWITCHES, method, ang_report_switch_step);
         run->options.classification = (ang_classify)kind;
-        snprintf(run->switched, sizeof run->switched, "classification %s",
-                 kind == ANG_CLASSIFY_PREFIX ? "prefix" : "mid-point");
+        snprintf(run->switched, sizeof run->switched, "classification %s", ang_classify_name((ang_classify)kind));
     }
     if (scene->mode == ANG_MODE_DVR) {
         run = add(report, ANG_REPORT_SWITCHES, method, ang_report_switch_step);

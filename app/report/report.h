@@ -43,7 +43,8 @@ typedef struct ang_report_run {
     double step_mm; /* used; 0: exact */
     uint64_t samples, pixels;
     int passes;
-    double rough_ms; /* of a frame, before it was timed */
+    ang_classify classification; /* of its steps; auto: no matter */
+    double rough_ms;             /* of a frame, before it was timed */
     double frame_ms[ANG_REPORT_FRAMES];
     int frames; /* timed */
 
@@ -128,6 +129,10 @@ bool ang_report_take_subset(const ang_image *image, int stride, int first_x, int
 
 /* measure.c: draws and times. What fails alone is left out, saying why. False with ANG_INTERRUPTED, ANG_LIMIT. */
 bool ang_report_measure(ang_report *report, ang_error *err);
+
+/* The whole picture of a run that has been drawn: from the cache, or drawn again, since only pictures that a page shows
+ * are kept. False where it cannot be. */
+bool ang_report_picture(const ang_report *report, const ang_report_run *run, ang_image *image);
 
 /* judge.c: times, fronts, orders, what to recommend. False with ANG_LIMIT. */
 bool ang_report_judge(ang_report *report, ang_error *err);

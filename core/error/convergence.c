@@ -62,7 +62,7 @@ static bool has_kinks(const ang_transfer *transfer, double low, double high) {
     return false;
 }
 
-ang_expected_order ang_order_expected(const ang_scene *scene, double low, double high) {
+ang_expected_order ang_order_expected(const ang_scene *scene, double low, double high, bool prefix) {
     switch (scene->mode) {
     case ANG_MODE_MIP:
     case ANG_MODE_MINIP:
@@ -77,8 +77,13 @@ ang_expected_order ang_order_expected(const ang_scene *scene, double low, double
     case ANG_MODE_DVR:
         break;
     }
-    if (ang_transfer_jumps(scene->transfer))
-        return (ang_expected_order){1, 1, "the transfer function has steps or a plateau at opacity 1"};
+    bool jumps = ang_transfer_jumps(scene->transfer);
+    if (prefix && (jumps || has_kinks(scene->transfer, low, high)))
+        return (ang_expected_order){1, 2,
+                                    "steps are classified by integrals over the transfer function: 2 where the field "
+                                    "is smooth over a step, less "
+                                    "where it bends within narrow parts of the transfer function"};
+    if (jumps) return (ang_expected_order){1, 1, "the transfer function has steps or a plateau at opacity 1"};
     if (has_kinks(scene->transfer, low, high))
         return (ang_expected_order){1.8, 2, "the transfer function has kinks and no steps"};
     return (ang_expected_order){2, 2, "the transfer function is smooth over the values there are"};

@@ -22,14 +22,15 @@ typedef struct ang_order {
  * the slope of those before it would give: they lie on a floor of their own. */
 ang_order ang_order_fit(const double *step, const double *error, size_t count, double floor);
 
-/* The order to expect of the RMS error of a method that samples at the middle of each step (numerics.md), and why. */
+/* The order to expect of the RMS error (numerics.md), and why. */
 typedef struct ang_expected_order {
     double least, most;
     const char *why; /* static */
 } ang_expected_order;
 
-/* For a scene over values from `low` to `high` HU: knots of the transfer function outside that do not count. */
-ang_expected_order ang_order_expected(const ang_scene *scene, double low, double high);
+/* For a scene over values from `low` to `high` HU: knots of the transfer function outside that do not count. `prefix`:
+ * steps are classified by integrals over the transfer function (mode dvr). */
+ang_expected_order ang_order_expected(const ang_scene *scene, double low, double high, bool prefix);
 
 /* Sets front[i] where no other setting is both as cheap and as exact as setting i and better in one of the two (Pareto,
  * 1906). An error is as good as another where it is at most `slack` (a share) greater: chance decides between such.

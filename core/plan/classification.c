@@ -5,6 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char *const names[] = {"auto", "midpoint", "prefix"};
+
+const char *ang_classify_name(ang_classify classify) { return names[classify]; }
+
+int ang_classify_from_name(const char *name) {
+    for (int i = ANG_CLASSIFY_AUTO; i <= ANG_CLASSIFY_PREFIX; i++)
+        if (strcmp(names[i], name) == 0) return i;
+    return -1;
+}
+
 /* What a rise must have to count: of steps and of colours a tenth, of a peak's opacity a level of 255. */
 static const double LEAST_STEP = 0.1, LEAST_PEAK = 1.0 / 255;
 /* Of a peak, beside the greater of what it leads from and to: what is less is a ripple on a slope. */

@@ -7,6 +7,9 @@
 #include "core/volume/volume.h"
 
 typedef enum ang_classify { ANG_CLASSIFY_AUTO, ANG_CLASSIFY_MIDPOINT, ANG_CLASSIFY_PREFIX } ang_classify;
+/* As on the command line: "auto", "midpoint", "prefix"; -1 where there is no such name. */
+const char *ang_classify_name(ang_classify classify);
+int ang_classify_from_name(const char *name);
 
 /* Where a transfer function changes within few HU. */
 typedef enum ang_stiff_kind {

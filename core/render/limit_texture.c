@@ -1,5 +1,7 @@
 #include "core/render/limit_texture.h"
 
+#include "core/render/target.h"
+
 #include <glad/gl.h>
 #include <shaders.h>
 
@@ -19,6 +21,7 @@ static void make_texture(ang_limit_texture *limits, int width, int height) {
 bool ang_limit_texture_update(ang_limit_texture *limits, ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                               const ang_ray_frame *frame, int threads, ang_error *err) {
     if (!has_objects(scene)) return true;
+    if (!ang_target_fits(gl, scene->width, scene->height, err)) return false;
     if (!ang_object_layer_make(&limits->layer, volume, scene, frame, threads, err)) return false;
     if (!ang_scene_limits_rays(scene)) return true;
     if (!limits->texture || limits->width != scene->width || limits->height != scene->height)

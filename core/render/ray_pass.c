@@ -172,7 +172,8 @@ bool ang_ray_pass_draw(ang_ray_pass *pass, const ang_scene *scene, const ang_ren
         !ang_target_resize(&pass->target, pass->gl, scene->width, scene->height, stats ? ANG_TARGET_COUNTS : 0, err))
         return false;
     if (stats) stats->step_mm = ang_ray_step(pass->volume, options);
-    if (stats) stats->note = ang_ray_pass_note(pass, scene);
+    const char *note = ang_ray_pass_note(pass, scene);
+    if (stats && note) stats->note = note;
     if (stats) stats->classification = ang_scene_classification(scene, &pass->table);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->target.framebuffer);
     glViewport(0, 0, pass->target.width, pass->target.height);

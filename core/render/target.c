@@ -48,15 +48,19 @@ static int side_limit(void) {
     return limit;
 }
 
+bool ang_target_fits(ang_gl *gl, int width, int height, ang_error *err) {
+    int limit = side_limit();
+    return (width <= limit && height <= limit) ||
+           ang_fail(err, ANG_LIMIT,
+                    "picture of %dx%d pixels: this OpenGL (%s) draws at most %d a side; give a smaller --size", width,
+                    height, ang_gl_renderer(gl), limit);
+}
+
 bool ang_target_resize(ang_target *target, ang_gl *gl, int width, int height, unsigned parts, ang_error *err) {
     if (target->framebuffer && target->width == width && target->height == height && target->parts == parts)
         return true;
     ang_target_destroy(target);
-    int limit = side_limit();
-    if (width > limit || height > limit)
-        return ang_fail(err, ANG_LIMIT,
-                        "picture of %dx%d pixels: this OpenGL (%s) draws at most %d a side; give a smaller --size",
-                        width, height, ang_gl_renderer(gl), limit);
+    if (!ang_target_fits(gl, width, height, err)) return false;
     glGenFramebuffers(1, &target->framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
     target->colour = attach_texture(GL_COLOR_ATTACHMENT0, GL_RGBA32F, width, height);

@@ -23,6 +23,8 @@ typedef struct ang_target {
     int width, height;
 } ang_target;
 
+/* Whether this GL draws pictures of that size; false with ANG_LIMIT, saying how large they may be. */
+bool ang_target_fits(ang_gl *gl, int width, int height, ang_error *err);
 /* Makes the target fit, with `parts` of ang_target_parts; keeps it where it does already. False with ANG_LIMIT or
  * ANG_GL. */
 bool ang_target_resize(ang_target *target, ang_gl *gl, int width, int height, unsigned parts, ang_error *err);

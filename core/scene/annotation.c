@@ -56,7 +56,7 @@ static double scale_at_centre(const ang_scene *scene) {
 }
 
 /* Where the camera shows a point; false where that is beside or behind the eye. */
-static bool project(const ang_scene *scene, ang_vec3 at, double *x, double *y) {
+static bool project(const ang_scene *scene, ang_vec3 at, double *x, double *y, double *depth_mm) {
     const ang_camera *camera = &scene->camera;
     ang_vec3 from = ang_vec3_sub(at, camera->eye);
     double depth = ang_vec3_dot(from, camera->forward), half = camera->half_height;
@@ -65,6 +65,7 @@ static bool project(const ang_scene *scene, ang_vec3 at, double *x, double *y) {
     if (!(depth > camera->near_mm) || !(pixel > 0)) return false;
     *x = 0.5 * scene->width + ang_vec3_dot(from, camera->right) / pixel;
     *y = 0.5 * scene->height - ang_vec3_dot(from, camera->up) / pixel;
+    *depth_mm = depth;
     return true;
 }
 
@@ -73,14 +74,44 @@ static bool is_light(const ang_scene *scene) {
     return b[3] * (0.299 * b[0] + 0.587 * b[1] + 0.114 * b[2]) > 0.5;
 }
 
+/* Letters are a fortieth of the picture's height, at least 11 pixels. */
+static double letter_height(const ang_scene *scene) { return fmax(scene->height / 40.0, 11); }
+
+/* The label before number `last` that it would be written over; -1: none. */
+static int hidden_by(const ang_annotation *a, int last, double letter) {
+    const ang_annotation_label *label = &a->label[last];
+    for (int i = 0; i < last; i++) {
+        const ang_annotation_label *other = &a->label[i];
+        double room = 0.35 * letter * (double)(strlen(label->text) + strlen(other->text));
+        if (fabs(label->x - other->x) < room && fabs(label->y - other->y) < letter) return i;
+    }
+    return -1;
+}
+
 ang_annotation ang_annotation_of_objects(const ang_scene *scene) {
     ang_annotation a = {.dark_ink = is_light(scene)};
     const ang_objects *objects = scene->objects;
+    double depth[ANG_ANNOTATION_LABELS], letter = letter_height(scene);
+    bool is_length[ANG_ANNOTATION_LABELS];
     for (size_t i = 0; objects && i < objects->label_count && a.labels < ANG_ANNOTATION_LABELS; i++) {
         ang_annotation_label *label = &a.label[a.labels];
-        if (!project(scene, objects->label[i].at, &label->x, &label->y)) continue;
-        if (objects->label[i].below) label->y += fmax(scene->height, 440) / 25.0; /* letters are a fortieth */
+        bool below = objects->label[i].below;
+        if (!project(scene, objects->label[i].at, &label->x, &label->y, &depth[a.labels])) continue;
+        if (below) label->y += 1.6 * letter;
         snprintf(label->text, sizeof label->text, "%s", objects->label[i].text);
+        int other = hidden_by(&a, a.labels, letter);
+        /* Lengths make room for one another. Of an axis that points at the eye only the near end has its letter. */
+        for (int line = 0; line < ANG_ANNOTATION_LABELS && below && other >= 0; line++) {
+            label->y = a.label[other].y + 1.2 * letter;
+            other = hidden_by(&a, a.labels, letter);
+        }
+        if (other >= 0 && !below && (is_length[other] || depth[a.labels] >= depth[other])) continue;
+        if (other >= 0 && !below) {
+            a.label[other] = *label;
+            depth[other] = depth[a.labels];
+            continue;
+        }
+        is_length[a.labels] = below;
         a.labels++;
     }
     return a;

@@ -26,6 +26,23 @@ static int make_phantom(void **state) {
     return run("phantom -o " PHANTOM " --dims 64x60x24 --quiet");
 }
 
+/* Parts of the plan that no picture test can force: a context that nothing is drawn with. */
+static void opengl_that_is_not_needed_changes_nothing(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP "/no-gl.exr --method reference --size 24x20 --preset cta-head -q 2>&1");
+    expect(0, "render " PHANTOM " -o " TMP
+              "/gl.exr --method reference --force gl --size 24x20 --preset cta-head --explain 2>&1");
+    assert_null(strstr(output, "left out  OpenGL"));
+    assert_int_equal(system("cmp -s " TMP "/no-gl.exr " TMP "/gl.exr"), 0);
+}
+
+static void gradients_that_cannot_be_had_are_said(void **state) {
+    (void)state;
+    expect(0, "render " PHANTOM " -o " TMP
+              "/x.png --size 24x20 --method envelope --preset cta-head --gradients texture --manual-filter 2>&1");
+    assert_non_null(strstr(output, "--gradients texture: gradients are looked up, since --manual-filter"));
+}
+
 static void usage_errors_give_two(void **state) {
     (void)state;
     expect(2, "2>&1");
@@ -479,6 +496,8 @@ int main(void) {
         cmocka_unit_test(nothing_of_the_patient_is_in_the_json),
         cmocka_unit_test(pictures_of_the_same_scene_are_equal),
         cmocka_unit_test(frames_are_numbered),
+        cmocka_unit_test(opengl_that_is_not_needed_changes_nothing),
+        cmocka_unit_test(gradients_that_cannot_be_had_are_said),
         cmocka_unit_test(nouns_follow_their_number),
         cmocka_unit_test(presets_are_listed_and_shown),
         cmocka_unit_test(progress_and_messages_go_to_stderr),

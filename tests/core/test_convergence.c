@@ -72,7 +72,7 @@ static double expected(const ang_transfer_point *points, size_t points_count, do
     ang_transfer *transfer = ang_transfer_create(points, points_count, 1, false, NULL, &err);
     assert_non_null(transfer);
     ang_scene scene = {.mode = ANG_MODE_DVR, .transfer = transfer};
-    double least = ang_order_expected(&scene, low, high).least;
+    double least = ang_order_expected(&scene, low, high, false).least;
     ang_transfer_free(transfer);
     return least;
 }
@@ -89,6 +89,10 @@ static void the_transfer_function_decides_the_order(void **state) {
     near(expected(tent, 3, 0, 40), 2, 0); /* the kink lies beyond the values */
     near(expected(step, 2, 0, 100), 1, 0);
     near(expected(plateau, 2, 0, 100), 1, 0);
+    ang_transfer *sudden = ang_transfer_create(step, 2, 1, false, NULL, NULL);
+    ang_scene scene = {.mode = ANG_MODE_DVR, .transfer = sudden};
+    near(ang_order_expected(&scene, 0, 100, true).most, 2, 0);
+    ang_transfer_free(sudden);
 }
 
 static void the_front_is_what_nothing_beats(void **state) {

@@ -152,8 +152,8 @@ static void labels_lie_at_their_places(void **state) {
     ang_scene scene = ang_scene_default(volume);
     ang_objects objects = {0};
     ang_vec3 centre = ang_volume_centre(volume);
-    assert_true(ang_objects_add_mark(&objects, volume, ang_vec3_add(centre, (ang_vec3){-3, 0, 0}),
-                                     ang_vec3_add(centre, (ang_vec3){3, 0, 8}), NULL));
+    assert_true(ang_objects_add_mark(&objects, volume, ang_vec3_add(centre, (ang_vec3){-3, 0, 12}),
+                                     ang_vec3_add(centre, (ang_vec3){3, 0, 20}), NULL));
     assert_true(ang_objects_add_axes(&objects, volume, NULL));
     ang_error err = {0};
     assert_false(ang_objects_add_mark(&objects, volume, centre, (ang_vec3){NAN, 0, 0}, &err));
@@ -162,7 +162,7 @@ static void labels_lie_at_their_places(void **state) {
     assert_string_equal(a.label[0].text, "10.0 mm");
     assert_close(a.label[0].x, 256, 1e-9);
     double pixel = 2 * scene.camera.focus_mm * tan(15 * M_PI / 180) / 512;
-    assert_close(a.label[0].y, 256 - 4 / pixel + 512 / 25.0, 1e-9);
+    assert_close(a.label[0].y, 256 - 16 / pixel + 1.6 * 512 / 40, 1e-9);
     /* From the front the patient's right is on the left, the head at the top. */
     for (int i = 1; i < a.labels; i++) {
         const ang_annotation_label *label = &a.label[i];
@@ -171,7 +171,24 @@ static void labels_lie_at_their_places(void **state) {
         if (strcmp(label->text, "H") == 0) assert_true(label->y < 200);
         if (strcmp(label->text, "F") == 0) assert_true(label->y > 312);
     }
-    assert_int_equal(a.labels, 7);
+    /* Anterior and posterior are one before the other: the near one is written. */
+    assert_int_equal(a.labels, 6);
+    bool anterior = false;
+    for (int i = 1; i < a.labels; i++) {
+        assert_string_not_equal(a.label[i].text, "P");
+        anterior |= strcmp(a.label[i].text, "A") == 0;
+    }
+    assert_true(anterior);
+    /* Marks at one place have their lengths below one another. */
+    ang_objects marks = {0};
+    for (int k = 1; k <= 3; k++)
+        assert_true(ang_objects_add_mark(&marks, volume, ang_vec3_add(centre, (ang_vec3){-k, 0, 0}),
+                                         ang_vec3_add(centre, (ang_vec3){k, 0, 0}), NULL));
+    scene.objects = &marks;
+    a = ang_annotation_of_objects(&scene);
+    assert_int_equal(a.labels, 3);
+    assert_true(a.label[1].y > a.label[0].y + 12 && a.label[2].y > a.label[1].y + 12);
+    ang_objects_clear(&marks);
     ang_objects_clear(&objects);
     ang_volume_free(volume);
 }
