@@ -178,6 +178,10 @@ static void choose_window(ang_viewer *viewer, int argument) {
     set_window(viewer, argument);
 }
 
+static void browse(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->browsing);
+}
 static void show_help(ang_viewer *viewer, int argument) {
     (void)argument;
     toggle(&viewer->help);
@@ -207,6 +211,7 @@ static const action actions[] = {
      is_tool},
     {"Tools", "Crosshair to the centre", NULL, ANG_KEY_HOME, 0, centre_crosshair, 0, true, is_ready, NULL},
     {"View", "Reset view", "of the pane under the pointer, else of all", 'R', 0, reset_view, 0, false, is_ready, NULL},
+    {"View", "Pictures of the presets", NULL, 'B', 0, browse, 0, false, is_ready, NULL},
     {"View", "One pane large", "also a double click", ANG_KEY_ENTER, 0, maximise, 0, false, is_ready, is_maximised},
     {"View", "Anterior", NULL, 'A', A, standard_view, 0, true, is_ready, NULL},
     {"View", "Posterior", NULL, 'P', A, standard_view, 1, false, is_ready, NULL},
@@ -246,8 +251,8 @@ static void escape(ang_viewer *viewer) {
         viewer->crosshair = gesture->crosshair;
         if (gesture->pane < ANG_PANE_VOLUME) viewer->slice[gesture->pane].view = gesture->view;
         gesture->cancelled = true;
-    } else if (viewer->opening || viewer->help || viewer->notes) {
-        viewer->opening = viewer->help = viewer->notes = false;
+    } else if (viewer->opening || viewer->help || viewer->notes || viewer->browsing) {
+        viewer->opening = viewer->help = viewer->notes = viewer->browsing = false;
     } else if (viewer->loading.running) {
         ang_loading_stop(&viewer->loading);
     } else if (viewer->failure[0] && viewer->ready) {

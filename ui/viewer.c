@@ -92,6 +92,7 @@ static const ang_preset *first_preset(ang_viewer *viewer, const char *wanted, an
 
 static void close_study(ang_viewer *viewer) {
     if (!viewer->ready) return;
+    ang_thumbnails_clear(viewer);
     ang_volume_picture_clear(viewer);
     for (int i = 0; i < ANG_ORIENTATIONS; i++) ang_slice_picture_clear(viewer, &viewer->slice[i]);
     free(viewer->histogram);
@@ -235,6 +236,8 @@ static void messages(ang_viewer *viewer) {
         show_welcome(viewer);
     else if (viewer->notes)
         show_notes(viewer);
+    else if (viewer->browsing)
+        ang_thumbnails_show(viewer);
     ang_actions_help(viewer);
 }
 
@@ -395,6 +398,8 @@ static void rest(ang_viewer *viewer) {
     double seconds = INFINITY;
     bool shown = viewer->ready && viewer->pane[ANG_PANE_VOLUME].width >= 1;
     if (shown) seconds = ang_volume_refine_in(viewer);
+    bool thumbnails = shown && ang_thumbnails_wanted(viewer);
+    if (thumbnails) seconds = 0;
     if (viewer->message[0]) seconds = fmin(seconds, fmax(viewer->message_until - ang_now_ms() / 1000, 0.01));
     if (viewer->typing) seconds = fmin(seconds, 0.5); /* the text cursor blinks */
     if (seconds > 0) ang_window_wait(viewer->window, seconds);
@@ -402,6 +407,7 @@ static void rest(ang_viewer *viewer) {
         ang_rect rect = viewer->pane[ANG_PANE_VOLUME];
         ang_volume_update(viewer, (int)rect.width, (int)rect.height, true);
     }
+    if (thumbnails && !ang_window_pending(viewer->window)) ang_thumbnails_step(viewer);
     viewer->redraws = settling_frames;
 }
 

@@ -14,6 +14,8 @@
 #define ANG_INK_BORDER ANG_INK(56, 56, 56, 255)
 ang_ink ang_pane_ink(ang_pane pane, unsigned alpha);
 
+enum { ANG_THUMBNAILS = 128 }; /* the most presets that are shown */
+
 typedef enum ang_tool { ANG_TOOL_WINDOW, ANG_TOOL_CROSSHAIR, ANG_TOOL_PAN, ANG_TOOLS } ang_tool;
 const char *ang_tool_name(ang_tool tool);
 
@@ -87,7 +89,9 @@ typedef struct ang_viewer {
     ang_vec3 hovered_mm;
     ang_gesture gesture;
 
-    bool help, notes, opening, corner_text, crosshair_shown;
+    ang_paint_texture thumbnail[ANG_THUMBNAILS]; /* of the presets, in the panel's order */
+    int thumbnails;                              /* made so far */
+    bool help, notes, opening, browsing, corner_text, crosshair_shown;
     char typed_path[1024];
     bool save_wanted; /* a picture of the pane, when refined */
     ang_pane save_pane;
@@ -127,8 +131,13 @@ bool ang_slice_image(ang_viewer *viewer, ang_orientation orientation, ang_image 
 
 /* volume_pane.c, volume_picture.c */
 void ang_volume_pane(ang_viewer *viewer, ang_rect rect);
-/* The scene of the document for a pane of this size; borrows `transfer`. */
-ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_transfer *transfer, int width, int height);
+/* The scene of a document for a picture of this size; borrows `transfer`. */
+ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_document *document, const ang_transfer *transfer,
+                           int width, int height);
+/* Draws a document as a small, coarse picture into `texture`, with the renderer that is there. False where input came
+ * or it could not be drawn. */
+bool ang_volume_thumbnail(ang_viewer *viewer, const ang_document *document, int width, int height,
+                          ang_paint_texture *texture, ang_error *err);
 /* Draws a coarse picture where what it should show has changed; or, with `refine`, the fine one, until input comes. */
 void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine);
 /* Seconds until the fine picture should be begun; infinite where there is nothing to refine. */
@@ -150,6 +159,15 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect);
 void ang_panel(ang_viewer *viewer, ang_rect rect);
 void ang_transfer_editor(ang_viewer *viewer);
 void ang_transfer_editor_start(ang_viewer *viewer);
+
+/* thumbnails.c */
+/* The presets that can be chosen, own_preset first; at most ANG_THUMBNAILS. Returns their number. */
+int ang_presets(const ang_viewer *viewer, const ang_preset *presets[ANG_THUMBNAILS]);
+void ang_thumbnails_show(ang_viewer *viewer);
+bool ang_thumbnails_wanted(const ang_viewer *viewer);
+/* Makes the next one. */
+void ang_thumbnails_step(ang_viewer *viewer);
+void ang_thumbnails_clear(ang_viewer *viewer);
 
 /* actions.c */
 void ang_actions_keys(ang_viewer *viewer);

@@ -9,7 +9,7 @@ static const double least_zoom = 0.1, greatest_zoom = 100;
 
 /* Millimetres of a pixel at the depth of the volume's centre. */
 static double scale_of(const ang_viewer *viewer, ang_rect rect) {
-    ang_scene scene = ang_volume_scene(viewer, NULL, (int)rect.width, (int)rect.height);
+    ang_scene scene = ang_volume_scene(viewer, &viewer->document, NULL, (int)rect.width, (int)rect.height);
     return ang_annotation_make(&scene, NULL).mm_per_pixel;
 }
 
@@ -112,7 +112,7 @@ void ang_volume_pane(ang_viewer *viewer, ang_rect rect) {
                       true, false, ANG_INK_TEXT, viewer->volume.failure);
     else
         ang_gui_picture(viewer->gui, &viewer->volume.texture, rect);
-    ang_scene scene = ang_volume_scene(viewer, NULL, (int)rect.width, (int)rect.height);
+    ang_scene scene = ang_volume_scene(viewer, &viewer->document, NULL, (int)rect.width, (int)rect.height);
     ang_pane_letters(viewer, rect, scene.camera.right, ang_vec3_scale(scene.camera.up, -1));
     if (viewer->corner_text) {
         write_corners(viewer, rect);

@@ -14,8 +14,8 @@ static const double coarse_step = 1; /* smallest spacings; half of that when fin
 static const double least_scale = 0.25, first_pixels = 30000;
 static const double rest_seconds = 0.15; /* without a change, before the fine picture is begun */
 
-ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_transfer *transfer, int width, int height) {
-    const ang_document *document = &viewer->document;
+ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_document *document, const ang_transfer *transfer,
+                           int width, int height) {
     ang_scene scene = ang_scene_default(viewer->study.volume);
     scene.width = width;
     scene.height = height;
@@ -76,18 +76,18 @@ static bool going_on(void *context, const char *what, double fraction) {
     return !ang_window_pending(viewer->window);
 }
 
-/* The picture over black, as 8 bit. */
-static bool show(ang_viewer *viewer, const ang_image *image, ang_error *err) {
-    ang_volume_picture *volume = &viewer->volume;
+/* The picture over black, as 8 bit, into `*rgba`, which grows. */
+static bool show(ang_viewer *viewer, const ang_image *image, uint8_t **rgba, ang_paint_texture *texture,
+                 ang_error *err) {
     size_t pixels = (size_t)image->width * (size_t)image->height;
-    uint8_t *rgba = realloc(volume->rgba, 4 * pixels);
-    if (!rgba) return ang_fail(err, ANG_LIMIT, "no memory for a picture");
-    volume->rgba = rgba;
+    uint8_t *bytes = realloc(*rgba, 4 * pixels);
+    if (!bytes) return ang_fail(err, ANG_LIMIT, "no memory for a picture");
+    *rgba = bytes;
     for (size_t i = 0; i < 4 * pixels; i++) {
         float value = i % 4 == 3 ? 1 : image->rgba[i];
-        rgba[i] = (uint8_t)(255 * (value > 0 ? value < 1 ? value : 1 : 0) + 0.5f);
+        bytes[i] = (uint8_t)(255 * (value > 0 ? value < 1 ? value : 1 : 0) + 0.5f);
     }
-    return ang_painter_picture(viewer->painter, &volume->texture, image->width, image->height, rgba, true, err);
+    return ang_painter_picture(viewer->painter, texture, image->width, image->height, bytes, true, err);
 }
 
 /* The share of the pane's sides that a coarse picture has. */
@@ -117,7 +117,7 @@ static bool draw(ang_viewer *viewer, ang_scene *scene, bool fine, ang_image *ima
     if (!make_renderer(viewer, scene, err) || !ang_image_create(image, scene->width, scene->height, err)) return false;
     bool first = !volume->warm;
     bool done = volume->method->render(volume->renderer, scene, &options, image, NULL, fine ? &progress : NULL, err) &&
-                show(viewer, image, err);
+                show(viewer, image, &volume->rgba, &volume->texture, err);
     if (!done) return false;
     volume->warm = true;
     volume->frame_ms = ang_now_ms() - start;
@@ -138,7 +138,8 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     ang_error err = {0};
     ang_transfer *transfer = ang_document_transfer(&viewer->document, &err);
     double scale = refine ? 1 : coarse_scale(volume, width, height);
-    ang_scene scene = ang_volume_scene(viewer, transfer, scaled(width, scale), scaled(height, scale));
+    ang_scene scene =
+        ang_volume_scene(viewer, &viewer->document, transfer, scaled(width, scale), scaled(height, scale));
     ang_image image = {0};
     bool done = transfer && draw(viewer, &scene, refine, &image, &err);
     if (!done && err.code == ANG_INTERRUPTED) {
@@ -161,6 +162,30 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     snprintf(volume->failure, sizeof volume->failure, "%s", done ? "" : err.message);
 }
 
+bool ang_volume_thumbnail(ang_viewer *viewer, const ang_document *document, int width, int height,
+                          ang_paint_texture *texture, ang_error *err) {
+    const ang_volume_picture *volume = &viewer->volume;
+    if (!volume->renderer) return ang_fail(err, ANG_USAGE, "there is no picture yet");
+    ang_transfer *transfer = ang_document_transfer(document, err);
+    ang_image image = {0};
+    if (!transfer || !ang_image_create(&image, width, height, err)) {
+        ang_transfer_free(transfer);
+        return false;
+    }
+    ang_scene scene = ang_volume_scene(viewer, document, transfer, width, height);
+    ang_render_options options = ang_render_options_default;
+    options.threads = viewer->host->threads;
+    options.step_voxels = coarse_step;
+    ang_progress progress = {going_on, viewer};
+    uint8_t *rgba = NULL;
+    bool done = volume->method->render(volume->renderer, &scene, &options, &image, NULL, &progress, err) &&
+                show(viewer, &image, &rgba, texture, err);
+    free(rgba);
+    ang_image_clear(&image);
+    ang_transfer_free(transfer);
+    return done;
+}
+
 double ang_volume_refine_in(const ang_viewer *viewer) {
     const ang_volume_picture *volume = &viewer->volume;
     if (!volume->shown || volume->refined) return INFINITY;
@@ -173,7 +198,7 @@ bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm) {
     ang_volume_picture *picture = &viewer->volume;
     ang_error err = {0};
     ang_ray_frame frame;
-    ang_scene scene = ang_volume_scene(viewer, picture->transfer, picture->size[0], picture->size[1]);
+    ang_scene scene = ang_volume_scene(viewer, document, picture->transfer, picture->size[0], picture->size[1]);
     if (!picture->transfer || !ang_ray_frame_make(volume, &scene, &frame, &err)) return false;
     ang_ray ray = ang_ray_through(&frame, x, y);
     double step = ang_volume_smallest_spacing(volume) / 2, through = 0, best = 0, chosen = NAN;

@@ -137,7 +137,7 @@ def random_event(source):
         return f"mousedown {button}"
     if kind < 0.85:
         return f"mouseup {button}"
-    keys = list("wcprot123456789") + ["Up", "Down", "Page_Up", "Page_Down", "Escape", "F1", "F2", "Return", "Delete", "Home",
+    keys = list("wcprotb123456789") + ["Up", "Down", "Page_Up", "Page_Down", "Escape", "F1", "F2", "Return", "Delete", "Home",
                                       "bracketleft", "bracketright", "ctrl+z", "ctrl+shift+z", "ctrl+s", "alt+a", "alt+l",
                                       "alt+s", "shift+x", "ctrl+o", "Tab", "BackSpace", "space"]
     return f"key {source.choice(keys)}"
