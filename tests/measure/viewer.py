@@ -55,7 +55,7 @@ class Viewer:
         used = -1
         while time.time() < end and self.program.poll() is None:
             before, used = used, self.seconds_used()
-            if used - before < 0.02 and self.state().get("refined", True):
+            if used - before < 0.02:
                 return
             time.sleep(1)
 
