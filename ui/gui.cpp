@@ -309,14 +309,13 @@ void ang_gui_message_begin(ang_gui *gui, const char *name) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, grey(0.14f));
     ImGui::Begin(name, nullptr,
                  (fixed_window & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize);
+    /* Only for the message itself, not for tooltips in it. */
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(3);
     ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
 }
 
-void ang_gui_message_end(ang_gui *) {
-    ImGui::End();
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar(3);
-}
+void ang_gui_message_end(ang_gui *) { ImGui::End(); }
 
 double ang_gui_menu_bar_begin(ang_gui *gui) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2((float)ang_gui_px(gui, 8), (float)ang_gui_px(gui, 6)));

@@ -407,8 +407,11 @@ static void rest(ang_viewer *viewer) {
         ang_rect rect = viewer->pane[ANG_PANE_VOLUME];
         ang_volume_update(viewer, (int)rect.width, (int)rect.height, true);
     }
-    if (thumbnails && !ang_window_pending(viewer->window)) ang_thumbnails_step(viewer);
     viewer->redraws = settling_frames;
+    if (thumbnails && !ang_window_pending(viewer->window)) {
+        ang_thumbnails_step(viewer);
+        viewer->redraws = 0; /* nothing has to settle */
+    }
 }
 
 static bool work(ang_viewer *viewer, const ang_viewer_options *options, ang_error *err) {

@@ -6,6 +6,7 @@
     viewer.py idle PROGRAM INPUT                processor time in ten seconds without events, percent
     viewer.py soak PROGRAM INPUT [N] [SEED]     N random events (10000); memory before and after; the program must end well
 """
+import atexit
 import json
 import os
 import random
@@ -26,9 +27,11 @@ class Viewer:
         os.close(write)
         with os.fdopen(read) as pipe:
             os.environ["DISPLAY"] = ":" + pipe.readline().strip()
+        atexit.register(self.server.terminate)
         self.begun = time.time()
         self.program = subprocess.Popen([program, "view", path, "--write-state", self.state_file, "--pictures",
                                          os.path.join(self.folder, "pictures"), "--preset", "cta-head"])
+        atexit.register(self.program.kill)
 
     def state(self):
         try:
@@ -82,7 +85,6 @@ class Viewer:
         except subprocess.TimeoutExpired:
             self.program.kill()
             code = "none: it had to be killed"
-        self.server.terminate()
         return code
 
 
