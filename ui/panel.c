@@ -54,8 +54,8 @@ static void rendering(ang_viewer *viewer) {
     const char *names[16] = {"auto"};
     int indices[16] = {0}, count = 1, chosen = 0;
     for (int i = 0; ang_methods()[i] && count < 16; i++) {
-        /* The reference takes minutes. */
-        if (!ang_methods()[i]->needs_gl) continue;
+        /* It takes minutes. */
+        if (ang_methods()[i] == &ang_method_reference) continue;
         names[count] = ang_methods()[i]->name;
         indices[count++] = i + 1;
     }

@@ -5,6 +5,8 @@
 #include "ui/viewer_private.h"
 
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,24 +58,42 @@ void ang_volume_set_method(ang_viewer *viewer, int choice) {
     volume->shown = false;
 }
 
+/* Where OpenGL is drawn by the processor too, the method that needs none of it is several times as fast. */
+static const ang_method *choose(ang_viewer *viewer, const ang_scene *scene) {
+    const ang_volume_picture *volume = &viewer->volume;
+    const char *why;
+    if (volume->choice > 0) return ang_methods()[volume->choice - 1];
+    if (volume->software) return &ang_method_cpu;
+    return ang_method_choose(ang_window_gl(viewer->window), viewer->study.volume, scene, &ang_render_options_default,
+                             &why);
+}
+
 static bool make_renderer(ang_viewer *viewer, const ang_scene *scene, ang_error *err) {
     ang_volume_picture *volume = &viewer->volume;
     if (volume->renderer) return true;
     ang_gl *gl = ang_window_gl(viewer->window);
-    const char *why;
     volume->software = ang_gl_is_software(gl);
-    volume->method = volume->choice > 0
-                         ? ang_methods()[volume->choice - 1]
-                         : ang_method_choose(gl, viewer->study.volume, scene, &ang_render_options_default, &why);
-    volume->renderer = volume->method->create(gl, viewer->study.volume, &ang_render_options_default, err);
+    volume->method = choose(viewer, scene);
+    volume->renderer = volume->method->create(volume->method->needs_gl ? gl : NULL, viewer->study.volume,
+                                              &ang_render_options_default, err);
     return volume->renderer != NULL;
 }
+
+/* Stops a picture when input comes. Methods ask from any of their threads; events may be looked for only on the one
+ * that opened the window, which is among them. */
+typedef struct interruption {
+    ang_window *window;
+    pthread_t thread;
+    atomic_bool came;
+} interruption;
 
 static bool going_on(void *context, const char *what, double fraction) {
     (void)what;
     (void)fraction;
-    ang_viewer *viewer = context;
-    return !ang_window_pending(viewer->window);
+    interruption *input = context;
+    if (pthread_equal(pthread_self(), input->thread) && ang_window_pending(input->window))
+        atomic_store(&input->came, true);
+    return !atomic_load(&input->came);
 }
 
 /* The picture over black, as 8 bit, into `*rgba`, which grows. */
@@ -112,7 +132,8 @@ static bool draw(ang_viewer *viewer, ang_scene *scene, bool fine, ang_image *ima
     ang_render_options options = ang_render_options_default;
     options.threads = viewer->host->threads;
     if (!fine) options.step_voxels = coarse_step;
-    ang_progress progress = {going_on, viewer};
+    interruption input = {.window = viewer->window, .thread = pthread_self()};
+    ang_progress progress = {going_on, &input};
     double start = ang_now_ms();
     if (!make_renderer(viewer, scene, err) || !ang_image_create(image, scene->width, scene->height, err)) return false;
     bool first = !volume->warm;
@@ -176,7 +197,8 @@ bool ang_volume_thumbnail(ang_viewer *viewer, const ang_document *document, int 
     ang_render_options options = ang_render_options_default;
     options.threads = viewer->host->threads;
     options.step_voxels = coarse_step;
-    ang_progress progress = {going_on, viewer};
+    interruption input = {.window = viewer->window, .thread = pthread_self()};
+    ang_progress progress = {going_on, &input};
     uint8_t *rgba = NULL;
     bool done = volume->method->render(volume->renderer, &scene, &options, &image, NULL, &progress, err) &&
                 show(viewer, &image, &rgba, texture, err);
