@@ -1,5 +1,7 @@
 #include "core/plan/cost.h"
 
+#include "core/base/median.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -85,17 +87,11 @@ static double fit_terms(const problem *p, unsigned set, double out[ANG_COST_TERM
     return sum;
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double spread_of(const ang_cost_model *model, const ang_cost_measured *measured, size_t count) {
     double *off = malloc(count * sizeof *off);
     if (!off) return NAN;
     for (size_t i = 0; i < count; i++) off[i] = fabs(ang_cost_predict(model, &measured[i].work) / measured[i].ms - 1);
-    qsort(off, count, sizeof *off, ascending);
-    double median = 0.5 * (off[(count - 1) / 2] + off[count / 2]);
+    double median = ang_median(off, count);
     free(off);
     return median;
 }

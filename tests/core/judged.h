@@ -4,8 +4,10 @@
 
 #include "tests/core/fixtures.h"
 
+#include "core/base/median.h"
 #include "core/error/estimate.h"
 #include "core/error/metrics.h"
+#include "core/scene/objects.h"
 
 #include <string.h>
 
@@ -60,15 +62,18 @@ enum { JUDGED_METHODS = 4 };
 static const ang_method *const judged_methods[JUDGED_METHODS] = {&ang_method_envelope, &ang_method_raycast,
                                                                  &ang_method_slicing, &ang_method_singlepass};
 
-/* A scene without its transfer function and how it is drawn. */
+/* A scene without its transfer function and how it is drawn. Owns `objects`, which the scene borrows once it stays
+ * where it is. */
 typedef struct drawn {
     ang_view view;
     ang_scene scene;
+    ang_objects objects;
     int method; /* of judged_methods */
     ang_render_options options;
 } drawn;
 
-static inline drawn draw_lot(const ang_volume *volume, int size, uint64_t *lot) {
+/* `cut`: with a cut plane, behind which nothing shows. */
+static inline drawn draw_lot(const ang_volume *volume, int size, bool cut, uint64_t *lot) {
     static const double steps[] = {2, 1, 0.5, 0.25, 0.125};
     drawn d = {.scene = ang_scene_default(volume), .options = ang_render_options_default};
     d.view = (ang_view){.azimuth_deg = floor(360 * random_unit(lot)),
@@ -83,6 +88,13 @@ static inline drawn draw_lot(const ang_volume *volume, int size, uint64_t *lot) 
     d.method = (int)(JUDGED_METHODS * random_unit(lot));
     d.options.step_voxels = steps[(int)(5 * random_unit(lot))];
     if (random_unit(lot) < 0.2) d.options.termination = 0.95;
+    if (cut) {
+        char plane[32];
+        static const char *const names[] = {"axial", "coronal", "sagittal"};
+        snprintf(plane, sizeof plane, "%s:%d%%", names[(int)(3 * random_unit(lot))], (int)(100 * random_unit(lot)));
+        ang_objects_add_cut_planes(&d.objects, volume, plane, NULL);
+        if (random_unit(lot) < 0.5) d.options.termination = 0.7;
+    }
     return d;
 }
 
@@ -119,11 +131,6 @@ typedef struct verdict {
     double not_below, lowest, median, highest; /* 0..1; 5 %, 50 %, 95 % */
 } verdict;
 
-static inline int judged_ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static inline verdict judge_all(const judged *rows, int count, int first, int stride) {
     double *ratio = calloc((size_t)count + 1, sizeof *ratio);
     verdict v = {0};
@@ -132,10 +139,9 @@ static inline verdict judge_all(const judged *rows, int count, int first, int st
         v.not_below += estimate >= truth;
         ratio[v.scenes++] = truth > 0 ? estimate / truth : INFINITY;
     }
-    qsort(ratio, (size_t)v.scenes, sizeof *ratio, judged_ascending);
+    v.median = ang_median(ratio, (size_t)v.scenes);
     v.not_below /= v.scenes;
     v.lowest = ratio[(int)(0.05 * v.scenes)];
-    v.median = ratio[v.scenes / 2];
     v.highest = ratio[(int)(0.95 * v.scenes)];
     free(ratio);
     return v;

@@ -15,12 +15,13 @@ static ang_scene scene_of(const ang_volume *volume, const ang_transfer *transfer
 }
 
 /* measure_estimate does the same with more scenes, real volumes among them. */
-static void judge_volume(ang_gl *gl, const ang_volume *volume, uint64_t *lot, judged *out) {
+static void judge_volume(ang_gl *gl, const ang_volume *volume, bool cut, uint64_t *lot, judged *out) {
     static const char *const kinds[] = {"smooth", "step", "spike", "plateau"};
     ang_renderer *truth = ang_method_reference.create(NULL, volume, &ang_render_options_default, NULL);
     for (int i = 0; i < LOTS; i++) {
         ang_error err = {0};
-        drawn d = draw_lot(volume, SIZE, lot);
+        drawn d = draw_lot(volume, SIZE, cut, lot);
+        if (cut) d.scene.objects = &d.objects;
         ang_transfer *transfer = judged_transfer(kinds[i % 4], volume);
         d.scene.transfer = transfer;
         const ang_method *method = judged_methods[d.method];
@@ -31,24 +32,34 @@ static void judge_volume(ang_gl *gl, const ang_volume *volume, uint64_t *lot, ju
                       d.options.step_voxels, out[i].estimate.levels, out[i].truth.max);
         method->destroy(renderer);
         ang_transfer_free(transfer);
+        ang_objects_clear(&d.objects);
     }
     ang_method_reference.destroy(truth);
 }
 
-static void estimates_are_seldom_below_the_truth_and_not_far_above(void **state) {
-    open_gl(state);
+static void judge_volumes(ang_gl *gl, bool cut) {
     judged rows[2 * LOTS];
     uint64_t lot = 20;
     for (int i = 0; i < 20; i++) random_unit(&lot);
     ang_volume *waves = judged_volume(waves_value), *ball = judged_volume(ball_value);
-    judge_volume(gl, waves, &lot, rows);
-    judge_volume(gl, ball, &lot, rows + LOTS);
+    judge_volume(gl, waves, cut, &lot, rows);
+    judge_volume(gl, ball, cut, &lot, rows + LOTS);
     ang_volume_free(waves);
     ang_volume_free(ball);
     verdict v = judge_all(rows, 2 * LOTS, 0, 1);
     print_message("not below in %.0f %%, median %.2f\n", 100 * v.not_below, v.median);
     assert_true(v.not_below >= 0.95);
     assert_true(v.median <= 10);
+}
+
+static void estimates_are_seldom_below_the_truth_and_not_far_above(void **state) {
+    open_gl(state);
+    judge_volumes(gl, false);
+}
+
+static void nor_are_they_where_opaque_objects_lie_behind(void **state) {
+    open_gl(state);
+    judge_volumes(gl, true);
 }
 
 static ang_error_estimate estimate_of(const ang_method *method, ang_gl *gl, const ang_volume *volume,
@@ -99,6 +110,31 @@ static void termination_is_bounded_by_what_is_left(void **state) {
     ang_volume_free(volume);
 }
 
+/* A plane behind a medium makes every pixel opaque: that rays ended before it shows all the same. */
+static void termination_is_seen_before_opaque_objects(void **state) {
+    open_gl(state);
+    ang_volume *volume = judged_volume(waves_value);
+    ang_transfer *transfer = constant_transfer(0.4, 1, 0.5, 0.25);
+    ang_scene scene = scene_of(volume, transfer);
+    ang_objects objects = {0};
+    assert_true(ang_objects_add_cut_planes(&objects, volume, "coronal:90%", NULL));
+    scene.objects = &objects;
+    ang_render_options options = ang_render_options_default;
+    options.termination = 0.7;
+    ang_renderer *truth = ang_method_reference.create(NULL, volume, &options, NULL);
+    ang_renderer *renderer = ang_method_singlepass.create(gl, volume, &options, NULL);
+    judged j;
+    assert_true(judge(&ang_method_singlepass, renderer, truth, &scene, &options, &j, NULL));
+    assert_true(j.truth.max > 20);
+    assert_true(j.estimate.termination > 20 && j.estimate.levels >= j.truth.max);
+    assert_true(j.estimate.rms >= j.truth.rms);
+    ang_method_reference.destroy(truth);
+    ang_method_singlepass.destroy(renderer);
+    ang_objects_clear(&objects);
+    ang_transfer_free(transfer);
+    ang_volume_free(volume);
+}
+
 static void what_cannot_be_estimated_is_not(void **state) {
     open_gl(state);
     ang_volume *volume = judged_volume(ball_value);
@@ -131,15 +167,32 @@ static void the_pixels_looked_at_are_a_grid(void **state) {
     }
 }
 
+static void what_is_not_known_stays_so(void **state) {
+    (void)state;
+    assert_true(isnan(ang_error_capped((double)NAN)));
+    assert_close(ang_error_capped(300), 255, 0);
+    assert_close(ang_error_capped(3), 3, 0);
+    ang_error_estimate e = {.levels = (double)NAN, .rms = 3, .p999 = 200, .flipped = 0.5};
+    ang_metrics more = {.max = 10, .rms = 4, .p999 = 100, .flipped = 0.25};
+    ang_error_estimate_add(&e, &more);
+    assert_true(isnan(e.levels));
+    assert_close(e.rms, 7, 0);
+    assert_close(e.p999, 255, 0);
+    assert_close(e.flipped, 0.75, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimates_are_seldom_below_the_truth_and_not_far_above),
+        cmocka_unit_test(nor_are_they_where_opaque_objects_lie_behind),
         cmocka_unit_test(termination_is_bounded_by_what_is_left),
+        cmocka_unit_test(termination_is_seen_before_opaque_objects),
         cmocka_unit_test(what_cannot_be_estimated_is_not),
     };
     const struct CMUnitTest plain[] = {
         cmocka_unit_test(the_reference_errs_by_nothing),
         cmocka_unit_test(the_pixels_looked_at_are_a_grid),
+        cmocka_unit_test(what_is_not_known_stays_so),
     };
     return run_on_backends(tests) + cmocka_run_group_tests(plain, NULL, NULL);
 }

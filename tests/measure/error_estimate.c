@@ -1,8 +1,8 @@
 /* The estimate of a picture's error beside the truth, over scenes drawn by lot: in how many it is not below, and how
  * many times the truth it is (docs/error.md).
- *   measure_estimate PRESETS [DATA [SCENES [SEED [MODE]]]]
+ *   measure_estimate PRESETS [DATA [SCENES [SEED [MODE [cut]]]]]
  * PRESETS: the folder; DATA: the folder of real volumes, "" for synthetic ones alone; SCENES of each volume; MODE dvr,
- * or mip, minip or mean. */
+ * or mip, minip or mean; cut: with a cut plane each. */
 #include "tests/core/judged.h"
 
 #include "core/render/context.h"
@@ -99,6 +99,7 @@ typedef struct bench {
     const source *source;
     const char *presets;
     ang_mode mode;
+    bool cut;
     ang_gl *gl;
     ang_volume *volume;
     ang_renderer *renderer[JUDGED_METHODS], *truth;
@@ -106,7 +107,8 @@ typedef struct bench {
 
 static void judge_one(bench *on, uint64_t *lot, judged *out) {
     ang_error err = {0};
-    drawn d = draw_lot(on->volume, SIZE, lot);
+    drawn d = draw_lot(on->volume, SIZE, on->cut, lot);
+    if (on->cut) d.scene.objects = &d.objects;
     int transfers = 0;
     while (transfers < MOST_TRANSFERS && on->source->transfers[transfers]) transfers++;
     const char *name = on->source->transfers[(int)(transfers * random_unit(lot))];
@@ -131,6 +133,7 @@ static void judge_one(bench *on, uint64_t *lot, judged *out) {
     print_row(on->source->name, name, &d, out);
     ang_preset_free(preset);
     ang_transfer_free(transfer);
+    ang_objects_clear(&d.objects);
 }
 
 /* `of` says with what; the rest of the bench is made and let go of here. */
@@ -156,7 +159,7 @@ static void print_verdict(const char *which, const judged *rows, int count, int 
 
 int main(int count, char **arguments) {
     if (count < 2 || (count > 5 && ang_mode_from_name(arguments[5]) < 0)) {
-        fprintf(stderr, "measure_estimate PRESETS [DATA [SCENES [SEED [MODE]]]]\n");
+        fprintf(stderr, "measure_estimate PRESETS [DATA [SCENES [SEED [MODE [cut]]]]]\n");
         return 2;
     }
     const char *data = count > 2 ? arguments[2] : "";
@@ -164,6 +167,7 @@ int main(int count, char **arguments) {
     uint64_t lot = 0x9E3779B97F4A7C15u * (uint64_t)(count > 4 ? atoi(arguments[4]) : 1);
     for (int i = 0; i < 20; i++) random_unit(&lot);
     int mode = count > 5 ? ang_mode_from_name(arguments[5]) : ANG_MODE_DVR;
+    bool cut = count > 6 && strcmp(arguments[6], "cut") == 0;
     ang_error err = {0};
     ang_gl *gl = ang_gl_create(ANG_BACKEND_AUTO, &err);
     if (!gl) stop("OpenGL", &err);
@@ -175,7 +179,7 @@ int main(int count, char **arguments) {
            "estimate", "truth", "ratio", "step", "termin.", "filtering", "order", "pixel", "ms");
     for (int s = 0; s < SOURCES; s++) {
         if (sources[s].file && !*data) continue;
-        bench with = {.source = &sources[s], .presets = arguments[1], .mode = (ang_mode)mode, .gl = gl};
+        bench with = {.source = &sources[s], .presets = arguments[1], .mode = (ang_mode)mode, .cut = cut, .gl = gl};
         judge_source(&with, data, each, &lot, &rows[made]);
         made += each;
     }
