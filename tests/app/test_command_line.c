@@ -38,8 +38,9 @@ static void opengl_that_is_not_needed_changes_nothing(void **state) {
 
 static void gradients_that_cannot_be_had_are_said(void **state) {
     (void)state;
-    expect(0, "render " PHANTOM " -o " TMP
-              "/x.png --size 24x20 --method envelope --preset cta-head --gradients texture --manual-filter 2>&1");
+    expect(0,
+           "render " PHANTOM " -o " TMP
+           "/looked-up.png --size 24x20 --method envelope --preset cta-head --gradients texture --manual-filter 2>&1");
     assert_non_null(strstr(output, "--gradients texture: gradients are looked up, since --manual-filter"));
 }
 

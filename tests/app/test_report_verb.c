@@ -167,7 +167,8 @@ static void errors_fall_with_the_step(void **state) {
     cJSON_Delete(json);
 }
 
-/* By brute force over the points that the report itself lists, the exact method among them; errors within 1 % are equal.
+/* By brute force over the points that the report itself lists, the exact method among them; errors within 1 % are
+ * equal.
  */
 static void the_front_holds(void **state) {
     (void)state;

@@ -16,7 +16,9 @@ static void models_are_kept(void **state) {
     ang_costs_origin origin;
     assert_true(ang_costs_load(NULL, &first, &origin, NULL, NULL));
     assert_false(origin.cached);
-    assert_int_equal(first.count, 1); /* without OpenGL there is the reference alone */
+    size_t without_gl = 0;
+    for (size_t i = 0; ang_methods()[i]; i++) without_gl += !ang_methods()[i]->needs_gl;
+    assert_int_equal(first.count, without_gl);
     assert_non_null(ang_costs_of(&first, "reference"));
     assert_null(ang_costs_of(&first, "envelope"));
     ang_cost_work work = {100, 1e4, 0, 0};
@@ -24,7 +26,7 @@ static void models_are_kept(void **state) {
     assert_true(strncmp(origin.path, folder, strlen(folder)) == 0);
     assert_true(ang_costs_load(NULL, &again, &origin, NULL, NULL));
     assert_true(origin.cached);
-    assert_int_equal(again.count, 1);
+    assert_int_equal(again.count, first.count);
     for (int i = 0; i < ANG_COST_TERMS; i++)
         assert_close(again.of[0].model.term[i], first.of[0].model.term[i], 1e-12 * first.of[0].model.term[i]);
 
