@@ -10,7 +10,10 @@ bool ang_app_budget_given(const ang_options *options) {
 
 bool ang_app_budget_plan(ang_app_budget *budget, const ang_options *options, ang_gl *gl, const ang_volume *volume,
                          ang_picture *picture, const ang_method *asked, const ang_progress *progress, ang_error *err) {
-    *budget = (ang_app_budget){.given = true, .budget = {options->max_error, options->max_time}, .measured_ms = NAN};
+    *budget = (ang_app_budget){.given = true,
+                               .budget = {options->max_error, options->max_time},
+                               .pictures = options->orbit != 0 ? options->frames : 1,
+                               .measured_ms = NAN};
     if (!ang_costs_load(gl, &budget->costs, &budget->origin, progress, err) ||
         !ang_planner_plan(gl, volume, &picture->scene, &picture->render, asked, &budget->budget, &budget->costs,
                           &budget->planned, progress, err))
@@ -47,6 +50,11 @@ void ang_app_budget_check(ang_app_budget *budget, double measured_ms, ang_notes 
     budget->error_kept = planned->keeps_error;
     budget->time_kept = isnan(budget->budget.max_ms) || measured_ms <= budget->budget.max_ms;
     if (planned->missed[0]) ang_notes_add(warnings, "%s", planned->missed);
+    if (budget->pictures > 1)
+        ang_notes_add(warnings,
+                      "--max-error and --max-time were planned for and checked with the first of the %d pictures: the "
+                      "others may be farther off and take longer",
+                      budget->pictures);
     if (!budget->time_kept)
         ang_notes_add(warnings, "--max-time %.6g was missed: a frame took %.0f ms, %.0f were predicted",
                       budget->budget.max_ms, measured_ms, planned->ms);
@@ -74,7 +82,8 @@ cJSON *ang_app_budget_json(const ang_app_budget *budget) {
     ang_json_add_number(out, "predicted_ms", planned->ms);
     ang_json_add_number(out, "measured_ms", budget->measured_ms);
     ang_json_add_number(out, "error", planned->error);
-    ang_json_add_number(out, "interpolation", planned->interpolation);
+    ang_json_add_number(out, "interpolation", planned->between.max);
+    cJSON_AddStringToObject(out, "checked", "the first picture");
     cJSON_AddBoolToObject(out, "error_kept", budget->error_kept);
     cJSON_AddBoolToObject(out, "time_kept", budget->time_kept);
     cJSON *costs = cJSON_AddObjectToObject(out, "cost_models");

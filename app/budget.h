@@ -12,6 +12,7 @@
 typedef struct ang_app_budget {
     bool given; /* there is a limit */
     ang_budget budget;
+    int pictures; /* that differ; the first is planned for and checked */
     ang_costs costs;
     ang_costs_origin origin;
     ang_planned planned;

@@ -47,7 +47,7 @@ static bool open_gl(session *run, ang_backend backend, ang_error *err) {
 }
 
 /* Options that leave this method as it is. */
-static void note_ignored(session *run) {
+static void note_ignored(session *run, const ang_render_options *given) {
     static const struct {
         unsigned takes;
         const char *option;
@@ -64,13 +64,13 @@ static void note_ignored(session *run) {
                  {ANG_TAKES_SEPARATE_PASSES, "--separate-passes"},
                  {ANG_TAKES_COUNT_SHOWN, "--count-shown"},
                  {ANG_TAKES_CLASSIFICATION, "--classification"}};
-    unsigned ignored = ang_method_ignores(run->method, &run->picture.render);
+    unsigned ignored = ang_method_ignores(run->method, given);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (ignored & names[i].takes)
             ang_notes_add(&run->summary.warnings, "%s has no effect with --method %s", names[i].option,
                           run->method->name);
     const ang_scene *scene = &run->picture.scene;
-    if (run->picture.render.count_shown && (scene->mode != ANG_MODE_DVR || scene->shading != ANG_SHADING_NONE) &&
+    if (given->count_shown && (scene->mode != ANG_MODE_DVR || scene->shading != ANG_SHADING_NONE) &&
         !(ignored & ANG_TAKES_COUNT_SHOWN))
         ang_notes_add(&run->summary.warnings, "--count-shown has no effect but in mode dvr with --shading none");
 }
@@ -78,6 +78,7 @@ static void note_ignored(session *run) {
 /* Method, step and pixels that keep --max-error and --max-time. */
 static bool open_planned(session *run, ang_error *err) {
     ang_app_budget *budget = &run->summary.budget;
+    const ang_render_options given = run->picture.render; /* of which the plan changes some */
     double start = ang_now_ms(), usual = ang_render_options_default.step_voxels;
     if (fabs(run->options->step - usual) > 0)
         ang_notes_add(&run->summary.warnings,
@@ -90,7 +91,7 @@ static bool open_planned(session *run, ang_error *err) {
     run->renderer = budget->planned.renderer;
     ang_plan_use(&run->summary.plan, "%s: %s", run->method->name, run->method->title);
     ang_app_budget_explain(budget, &run->summary.plan);
-    note_ignored(run);
+    note_ignored(run, &given);
     return true;
 }
 
@@ -114,7 +115,7 @@ static bool open_renderer(session *run, ang_error *err) {
     double start = ang_now_ms();
     run->renderer = run->method->create(run->gl, run->volume, &run->picture.render, err);
     run->summary.upload_ms = ang_now_ms() - start;
-    note_ignored(run);
+    note_ignored(run, &run->picture.render);
     return run->renderer != NULL;
 }
 
@@ -262,8 +263,7 @@ static bool estimate_error(session *run, int frame, ang_error_estimate *estimate
     if (!ang_error_estimate_make(run->method, run->renderer, &run->picture.scene, &run->picture.render, estimate,
                                  ang_app_progress_sink(run->progress), err))
         return false;
-    const ang_planned *planned = &run->summary.budget.planned;
-    if (run->summary.budget.given) estimate->levels = fmin(estimate->levels + planned->interpolation, 255);
+    if (run->summary.budget.given) ang_error_estimate_add(estimate, &run->summary.budget.planned.between);
     if (frame > 0) return true;
     run->summary.estimated = true;
     run->summary.error = *estimate;
@@ -359,7 +359,8 @@ static bool check_budget(session *run, ang_error *err) {
     double ms = isnan(budget->budget.max_ms) ? NAN : run->summary.first_frame_ms;
     if (run->summary.timed_frames > 0) {
         ms = run->summary.median_ms;
-    } else if (!isnan(ms) && run->method->needs_gl) {
+    } else if (!isnan(ms) && run->method != &ang_method_reference) {
+        turn_camera(run, 0);
         frame_progress progress = {.what = "checking the time", .frames = 1};
         /* Without counting the shader is another one, which the first frame compiles. */
         for (int i = 0; i < 2; i++)

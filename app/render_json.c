@@ -133,7 +133,7 @@ static cJSON *error_json(const ang_picture *picture, const ang_method *method, c
     ang_json_add_number(parts, "termination", known ? e->termination : NAN);
     ang_json_add_number(parts, "filtering", known ? e->filtering : NAN);
     ang_json_add_number(parts, "arithmetic", known ? e->arithmetic : NAN);
-    ang_json_add_number(parts, "interpolation", summary->budget.given ? summary->budget.planned.interpolation : 0);
+    ang_json_add_number(parts, "interpolation", summary->budget.given ? summary->budget.planned.between.max : 0);
     ang_json_add_number(error, "quantisation", summary->quantisation);
     ang_json_add_number(error, "rms", known ? e->rms : NAN);
     ang_json_add_number(error, "p999", known ? e->p999 : NAN);

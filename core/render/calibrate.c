@@ -62,13 +62,13 @@ static bool measure_method(const ang_method *method, ang_gl *gl, const ang_volum
     size_t count = 0;
     ang_renderer *renderer = method->create(gl, volume, &options, err);
     if (!renderer) return false;
-    bool ok = true;
+    bool ok = true, exact = method == &ang_method_reference;
     for (size_t i = 0; i < PICTURES && ok; i++) {
         /* Steps are nothing to the reference. */
-        if (!method->needs_gl && pictures[i].step < 1) continue;
+        if (exact && pictures[i].step < 1) continue;
         ang_scene scene = ang_scene_default(volume);
         scene.transfer = transfer;
-        scene.width = scene.height = method->needs_gl ? pictures[i].size : reference_size[pictures[i].size > 100];
+        scene.width = scene.height = exact ? reference_size[pictures[i].size > 100] : pictures[i].size;
         scene.shading = pictures[i].shading;
         options.step_voxels = pictures[i].step;
         ok = measure(method, renderer, &scene, &options, &measured[count], NULL, err);

@@ -11,15 +11,15 @@
 typedef struct ang_planned {
     const ang_method *method;
     ang_renderer *renderer;
-    double step_voxels;          /* 0: the method knows none */
-    int stride;                  /* every so many pixels along each axis; 1: all */
-    double termination;          /* as in ang_render_options */
-    double ms, error;            /* predicted; levels, NaN: not known */
-    ang_error_estimate estimate; /* of the choice, where an error was asked for: what `error` is then made from */
-    double interpolation;        /* levels that pixels between those drawn are off, where looked at; 0: all are drawn */
+    double step_voxels;           /* 0: the method knows none */
+    int stride;                   /* every so many pixels along each axis; 1: all */
+    double termination;           /* as in ang_render_options */
+    double ms, error;             /* predicted; levels, NaN: not known */
+    ang_error_estimate estimate;  /* of the choice, where an error was asked for: what `error` is then made from */
+    ang_metrics between;          /* that pixels between those drawn are off, where looked at; 0: all are drawn */
     bool keeps_error, keeps_time; /* as predicted */
     size_t candidates;
-    int refinements;    /* finer steps after the first, whose estimate was too great */
+    int refinements;    /* other steps after the first, whose estimate was too great */
     double planning_ms; /* that all this took */
     char missed[256];   /* why the budget cannot be kept, one sentence; empty: it can */
 } ang_planned;

@@ -440,24 +440,30 @@ static void progress_and_messages_go_to_stderr(void **state) {
     assert_string_equal(output, "");
 }
 
-/* Budgets, without OpenGL, where the reference is all there is. */
+/* Budgets, without OpenGL, where beside the reference there are only rays on the processor. */
 static void budgets_are_kept_or_said_to_be_missed(void **state) {
     (void)state;
     static const char draw[] = "render " PHANTOM " -o " TMP "/budget.png --size 12x12 --preset cta-head --backend none "
                                "--threads 1 --quiet --json -";
     char command[512];
     assert_int_equal(setenv("XDG_CACHE_HOME", TMP "/cache", 1), 0);
-    snprintf(command, sizeof command, "%s --max-error 1", draw);
+    snprintf(command, sizeof command, "%s --max-error 0.001 --frames 2 --orbit 90", draw);
     expect(0, command);
     cJSON *json = cJSON_Parse(output);
+    assert_null(strstr(output, "has no effect"));
+    assert_non_null(strstr(output, "checked with the first of the 2 pictures"));
     const cJSON *budget = cJSON_GetObjectItemCaseSensitive(json, "budget");
     assert_string_equal(cJSON_GetObjectItemCaseSensitive(budget, "method")->valuestring, "reference");
     assert_true(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(budget, "error_kept")));
     assert_true(cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(budget, "time_kept")));
     assert_true(cJSON_IsNull(cJSON_GetObjectItemCaseSensitive(budget, "max_time_ms")));
     cJSON_Delete(json);
+    snprintf(command, sizeof command, "%s --max-error 0.001 --termination 0.9", draw);
+    expect(0, command);
+    assert_non_null(strstr(output, "--termination has no effect with --method reference"));
     snprintf(command, sizeof command, "%s --max-time 0.001", draw);
     expect(0, command);
+    assert_null(strstr(output, "of the 2 pictures"));
     json = cJSON_Parse(output);
     budget = cJSON_GetObjectItemCaseSensitive(json, "budget");
     assert_true(cJSON_IsFalse(cJSON_GetObjectItemCaseSensitive(budget, "time_kept")));
