@@ -308,11 +308,8 @@ static bool render_all(session *run, ang_error *err) {
         ang_frame_stats stats = {.counts = run->counts};
         if (!render_frame(run, &progress, &stats, &milliseconds, err)) return false;
         if (stats.note) ang_notes_add(&run->summary.warnings, "%s", stats.note);
-        if (run->kept.given && frame == 1) {
-            ang_plan_facts facts = {.same_as_before = true};
-            ang_plan_decisions decisions = ang_plan_decide(&facts);
-            ang_plan_explain_part(&decisions, ANG_PART_REDRAW, &run->summary.plan);
-        }
+        if (run->kept.given && frame == 1)
+            ang_plan_explain_part(&run->kept.decisions, ANG_PART_REDRAW, &run->summary.plan);
         if (frame == 0) {
             run->summary.first_frame_ms = milliseconds;
             run->summary.stats = stats;

@@ -42,6 +42,7 @@ bool ang_kept_render(ang_kept *kept, const ang_method *method, ang_renderer *ren
     ang_plan_decisions plan = ang_plan_decide(&facts);
     kept->given = !ang_plan_uses(&plan, ANG_PART_REDRAW) && !counts && (!stats || kept->counted);
     if (kept->given) {
+        kept->decisions = plan;
         memcpy(image->rgba, kept->image.rgba, image_bytes(image));
         if (stats) *stats = kept->stats;
         return true;

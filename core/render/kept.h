@@ -11,9 +11,10 @@ typedef struct ang_kept {
     ang_transfer *transfer; /* a copy; NULL where the scene had none */
     ang_render_options options;
     ang_image image;
-    ang_frame_stats stats; /* its note is not kept */
-    bool counted;          /* stats were asked for */
-    bool given;            /* the last call gave the picture without drawing */
+    ang_frame_stats stats;        /* its note is not kept */
+    bool counted;                 /* stats were asked for */
+    bool given;                   /* the last call gave the picture without drawing... */
+    ang_plan_decisions decisions; /* ... as ANG_PART_REDRAW of these says */
 } ang_kept;
 
 /* As `method`'s render, but where scene and options are what they were in the last call the picture of that is copied,
