@@ -60,7 +60,7 @@ INLINE void note_seen(const ang_cast *cast, tile *t, seen *s, unsigned bits, lan
     lanes_pack(s->added + s->count, added, bits);
     lanes_pack(s->value + s->count, value, bits);
     for (int axis = 0; axis < 3 && phong; axis++) lanes_pack(s->place[axis] + s->count, place[axis], bits);
-    s->count += __builtin_popcount(bits);
+    s->count += lanes_count(bits);
     if (s->count < LANES) return;
     add_light(cast, t, s, phong);
     move_down(s, phong);
@@ -186,7 +186,7 @@ INLINE lanes_int add_opacity(const ang_cast *cast, tile *t, walk *w, const sampl
         w->taken -= lanes_float(s->counts[k] & ~over);
         unsigned shows = lanes_bits(added > 0);
         if (!shows) continue;
-        *shown += (unsigned)__builtin_popcount(shows);
+        *shown += (unsigned)lanes_count(shows);
         for (int c = 0; c < 3 && dense; c++) w->light[c] += added * colour[k][c];
         if (!dense)
             note_seen(cast, t, noted, shows, w->ray, added, cast->jumps ? settle(s->value[k]) : s->value[k],

@@ -120,6 +120,17 @@ INLINE unsigned lanes_bits(lanes_int mask) {
 #endif
 }
 
+INLINE int lanes_count(unsigned bits) {
+#if defined(__POPCNT__)
+    return __builtin_popcount(bits);
+#else
+    bits -= bits >> 1 & 0x5555;
+    bits = (bits & 0x3333) + (bits >> 2 & 0x3333);
+    bits = (bits + (bits >> 4)) & 0x0f0f;
+    return (int)((bits + (bits >> 8)) & 31);
+#endif
+}
+
 /* Stores the lanes whose bits are set one after the other; what lies in the LANES places from `to` on is lost. */
 INLINE void lanes_pack(float *to, lanes x, unsigned bits) {
 #if defined(__AVX512F__)

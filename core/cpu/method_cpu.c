@@ -25,6 +25,8 @@ struct ang_renderer {
     bool measured;
     ang_classification classification;
     ang_block_grid grid;
+    ang_visibility gridded; /* what the grid was brought up to date for, where grid_current */
+    bool grid_current;
     ang_object_layer objects;
 };
 
@@ -117,15 +119,19 @@ static void classify(ang_renderer *renderer, const ang_scene *scene, double step
     renderer->classification = ang_classification_choose(ANG_CLASSIFY_MIDPOINT, &renderer->stiffness, step);
 }
 
-/* Which blocks show, where rays may skip those that do not. */
+/* Which blocks show, where rays may skip those that do not. Another camera changes none of them. */
 static bool update_grid(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
     ang_block_grid *grid = &renderer->grid;
+    const ang_visibility *before = &renderer->gridded, *now = &d->visibility;
     if (!grid->octree && !ang_block_grid_start(grid, renderer->volume, NULL, options->threads, err)) {
         ang_block_grid_clear(grid);
         return false;
     }
-    bool changed;
-    ang_block_grid_update(grid, &d->visibility, true, options->threads, &changed);
+    bool same_threshold = before->threshold <= now->threshold && before->threshold >= now->threshold;
+    bool changed, current = renderer->grid_current && before->mode == now->mode && same_threshold;
+    if (!current) ang_block_grid_update(grid, now, true, options->threads, &changed);
+    renderer->gridded = *now;
+    renderer->grid_current = true;
     d->facts.blocks = grid->blocks;
     d->facts.shown = grid->visible_blocks;
     return true;
@@ -147,8 +153,7 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     if (ang_scene_needs_table(scene) &&
         !ang_table_cache_update(&renderer->table, scene->transfer, volume, 0, &made, err))
         return false;
-    if (made) renderer->measured = false;
-    classify(renderer, scene, d->step);
+    if (made) renderer->measured = renderer->grid_current = false;
     if (!prepare_weights(renderer, scene, options->threads, err)) return false;
     if (scene->objects && !ang_object_layer_make(&renderer->objects, volume, scene, &d->frame, options->threads, err))
         return false;
@@ -303,6 +308,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
     decision d;
     if (!decide(renderer, scene, options, &d, err)) return false;
+    if (stats) classify(renderer, scene, d.step);
     ang_cast cast = make_cast(renderer, scene, options, &d, image);
     cast.counts = stats ? stats->counts : NULL;
     size_t columns = ((size_t)scene->width + ANG_CAST_TILE - 1) / ANG_CAST_TILE;
@@ -347,6 +353,7 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
             ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s",
                                grid->blocks - grid->visible_blocks, grid->blocks, ang_visibility_reason(scene->mode));
     }
+    classify(renderer, scene, d.step);
     if (scene->mode == ANG_MODE_DVR) {
         ang_plan_use(plan, "mid-point classification");
         ang_plan_leave_out(plan, "prefix-integrated classification", "this method has none%s",

@@ -52,6 +52,7 @@ const ang_method ang_method_reference = {
     .name = "reference",
     .title = "double precision, exact per-cell integration; slow; the truth",
     .source = "DESIGN.md, Scene conventions; numerics.md",
+    .exact = true,
     .create = create,
     .render = render,
     .explain = explain,

@@ -28,6 +28,30 @@ static double least_ms(ang_renderer *renderer, const ang_scene *scene, const ang
     return least;
 }
 
+/* What a change of the transfer function and what a change of the camera costs before the first ray: pictures of one
+ * pixel. */
+static void measure_changes(ang_renderer *renderer, ang_scene scene, const ang_render_options *options, int frames) {
+    ang_transfer *other[2] = {ang_transfer_shifted(scene.transfer, 5, NULL),
+                              ang_transfer_shifted(scene.transfer, 9, NULL)};
+    ang_image image = {0};
+    scene.width = scene.height = 1;
+    if (!other[0] || !other[1] || !ang_image_create(&image, 1, 1, NULL)) return;
+    double changed = 1e30, same = 1e30;
+    for (int i = 0; i < 2 * frames; i++) {
+        scene.transfer = other[i % 2];
+        double start = now_ms();
+        if (!ang_method_cpu.render(renderer, &scene, options, &image, NULL, NULL, NULL)) return;
+        double between = now_ms();
+        if (!ang_method_cpu.render(renderer, &scene, options, &image, NULL, NULL, NULL)) return;
+        if (i > 1 && between - start < changed) changed = between - start;
+        if (i > 1 && now_ms() - between < same) same = now_ms() - between;
+    }
+    printf("another transfer function %.2f ms, the same %.2f ms\n", changed, same);
+    ang_transfer_free(other[0]);
+    ang_transfer_free(other[1]);
+    ang_image_clear(&image);
+}
+
 int main(int argc, char **argv) {
     if (argc < 3) return 2;
     int frames = argc > 3 ? atoi(argv[3]) : 3;
@@ -81,6 +105,7 @@ int main(int argc, char **argv) {
                    total, samples / 1e6, total * 1e6 / samples);
             fflush(stdout);
         }
+        if (s == 0) measure_changes(renderer, scene, &options, frames);
         ang_method_cpu.destroy(renderer);
         ang_image_clear(&image);
         ang_preset_free(preset);
