@@ -82,6 +82,7 @@ typedef struct ang_method {
     const char *title;  /* one line */
     const char *source; /* paper */
     bool needs_gl;
+    bool exact;     /* takes no steps: neither the step nor an error estimate means anything to it */
     unsigned takes; /* ang_method_takes */
     /* A renderer of this volume, which must outlive it; `gl` is NULL where needs_gl is false. Of `options`, gpu_memory
      * holds for the renderer's life. NULL with ANG_GL, ANG_LIMIT. */
