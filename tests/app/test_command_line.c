@@ -461,7 +461,7 @@ static void budgets_are_kept_or_said_to_be_missed(void **state) {
     snprintf(command, sizeof command, "%s --max-error 0.001 --termination 0.9", draw);
     expect(0, command);
     assert_non_null(strstr(output, "--termination has no effect with --method reference"));
-    snprintf(command, sizeof command, "%s --max-time 0.001", draw);
+    snprintf(command, sizeof command, "%s --method reference --max-time 0.001", draw);
     expect(0, command);
     assert_null(strstr(output, "of the 2 pictures"));
     json = cJSON_Parse(output);
