@@ -2,6 +2,7 @@
 
 #include "core/base/clock.h"
 #include "core/render/ray_pass.h"
+#include "core/scene/objects.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -180,7 +181,9 @@ static double rms_error(const planning *p, const measured_error *e, double step,
  * they are compared by the RMS, since the largest error tells coarse pictures apart no more. */
 static size_t list_candidates(const planning *p, ang_candidate *list) {
     size_t count = 0;
-    int strides = isnan(p->budget->max_ms) ? 1 : STRIDES;
+    /* Lines of opaque objects would fall apart between the pixels that are drawn. */
+    bool lines = p->scene->objects && p->scene->objects->count > 0;
+    int strides = isnan(p->budget->max_ms) || lines ? 1 : STRIDES;
     bool largest = !isnan(p->budget->max_error);
     for (size_t m = 0; m < p->count; m++)
         for (int s = 0; s < STEPS; s++)

@@ -148,7 +148,7 @@ static double two_figures(double value) {
 void ang_annotation_add_error(ang_annotation *annotation, double levels, double rms, double milliseconds) {
     char error[48] = "error not known";
     if (isfinite(levels))
-        snprintf(error, sizeof error, "error about %.3g levels", two_figures(levels));
+        snprintf(error, sizeof error, "error about %.3g levels", fmin(two_figures(levels), 255));
     else if (isfinite(rms))
         snprintf(error, sizeof error, "RMS error %.2g levels", two_figures(rms));
     snprintf(annotation->remark, sizeof annotation->remark, "%s, %.0f ms", error, milliseconds);

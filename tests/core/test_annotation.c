@@ -106,7 +106,7 @@ static void errors_are_rounded_up(void **state) {
                  {2.1, 1, 9, "error about 2.1 levels, 9 ms"},
                  {0, 0, 12345, "error about 0 levels, 12345 ms"},
                  {0.01234, NAN, 1, "error about 0.013 levels, 1 ms"},
-                 {254.2, 9, 1, "error about 260 levels, 1 ms"},
+                 {254.2, 9, 1, "error about 255 levels, 1 ms"},
                  {NAN, 0.301, 1, "RMS error 0.31 levels, 1 ms"},
                  {NAN, NAN, 1, "error not known, 1 ms"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
