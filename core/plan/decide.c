@@ -60,7 +60,9 @@ bool ang_parts_parse(const char *list, unsigned *forced, ang_error *err) {
 
 ang_drawing ang_plan_drawing(const ang_drawing_facts *facts, const char **why) {
     *why = "there is no OpenGL";
-    if (!facts->gl) return ANG_DRAW_REFERENCE;
+    if (!facts->gl) return facts->lanes ? ANG_DRAW_LANES : ANG_DRAW_REFERENCE;
+    *why = "OpenGL is software here, and the processor is faster without it";
+    if (facts->software && facts->lanes && facts->lanes_do) return ANG_DRAW_LANES;
     *why = "the volume does not fit into one texture";
     if (!facts->fits) return ANG_DRAW_SLICES;
     *why = "an option asks for slicing";

@@ -105,7 +105,8 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
 const ang_method *const *ang_methods(void);
 const ang_method *ang_method_find(const char *name);
 
-/* The method for --method auto: reference without OpenGL; slicing where the volume does not fit into one texture or the
+/* The method for --method auto: cpu where there is no OpenGL or it is software, as long as its options and the data
+ * ask for nothing else; slicing where the volume does not fit into one texture or the
  * budget; slicing or raycast where an option asks for them; else envelope, which takes the fewest samples. `why`
  * becomes the reason. */
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,

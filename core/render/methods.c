@@ -1,5 +1,6 @@
 #include "core/render/method.h"
 
+#include "core/render/context.h"
 #include "core/render/volume_texture.h"
 
 #include <string.h>
@@ -41,13 +42,21 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
     return given & ~method->takes;
 }
 
+/* Whether samples may pass what the transfer function does between them. */
+static bool needs_whole_steps(const ang_volume *volume, const ang_scene *scene, const ang_render_options *options) {
+    if (scene->mode != ANG_MODE_DVR || !scene->transfer) return false;
+    ang_stiffness stiffness = ang_stiffness_of(scene->transfer);
+    ang_stiffness_measure(&stiffness, volume);
+    double step = options->step_voxels * ang_volume_smallest_spacing(volume);
+    return ang_classification_choose(options->classification, &stiffness, step).prefix;
+}
+
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                                     const ang_render_options *options, const char **why) {
-    static const ang_method *const by_drawing[] = {[ANG_DRAW_REFERENCE] = &ang_method_reference,
-                                                   [ANG_DRAW_WHOLE_RAYS] = &ang_method_singlepass,
-                                                   [ANG_DRAW_ENVELOPE] = &ang_method_envelope,
-                                                   [ANG_DRAW_PASSES] = &ang_method_raycast,
-                                                   [ANG_DRAW_SLICES] = &ang_method_slicing};
+    static const ang_method *const by_drawing[] = {
+        [ANG_DRAW_REFERENCE] = &ang_method_reference,   [ANG_DRAW_LANES] = &ang_method_cpu,
+        [ANG_DRAW_WHOLE_RAYS] = &ang_method_singlepass, [ANG_DRAW_ENVELOPE] = &ang_method_envelope,
+        [ANG_DRAW_PASSES] = &ang_method_raycast,        [ANG_DRAW_SLICES] = &ang_method_slicing};
     bool weighted = scene->mode == ANG_MODE_MEAN && volume->padding;
     size_t bytes = ang_volume_count(volume) * sizeof *volume->data * (weighted ? 2 : 1);
     bool within = !options->gpu_memory || bytes <= options->gpu_memory;
@@ -57,6 +66,10 @@ const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const 
                                .fits = gl && within && ang_volume_texture_fits(gl, volume->dims, NULL),
                                .asks_slices = options->bricks[0] || options->show_bricks || planes ||
                                               options->proxy != ANG_PROXY_VERTEX_PROGRAM,
-                               .asks_passes = options->separate_passes || steps};
+                               .asks_passes = options->separate_passes || steps,
+                               .software = gl && ang_gl_is_software(gl),
+                               .lanes = ang_volume_count(volume) <= INT32_MAX};
+    facts.lanes_do = facts.software && facts.lanes && !ang_method_ignores(&ang_method_cpu, options) &&
+                     !needs_whole_steps(volume, scene, options);
     return by_drawing[ang_plan_drawing(&facts, why)];
 }

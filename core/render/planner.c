@@ -359,7 +359,7 @@ bool ang_planner_plan(ang_gl *gl, const ang_volume *volume, const ang_scene *sce
     size_t count = 0;
     methods[count++] = asked ? asked : ang_method_choose(gl, volume, scene, options, &why);
     /* Where only one method can draw the volume or takes the options there is nothing but the reference beside it. */
-    bool any = methods[0] == &ang_method_envelope;
+    bool any = methods[0] == &ang_method_envelope || (gl && methods[0] == &ang_method_cpu);
     for (int i = 0; !asked && ang_methods()[i] && count < MOST_METHODS; i++) {
         const ang_method *method = ang_methods()[i];
         if (method != methods[0] && (any || !method->needs_gl)) methods[count++] = method;

@@ -210,6 +210,15 @@ static void the_way_to_draw_follows_what_is_there(void **state) {
     assert_non_null(strstr(why, "does not fit"));
     f.gl = false;
     assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_REFERENCE);
+    f.lanes = true;
+    assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_LANES);
+    f = (ang_drawing_facts){.gl = true, .fits = true, .lanes = true, .lanes_do = true};
+    assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_ENVELOPE);
+    f.software = true;
+    assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_LANES);
+    assert_non_null(strstr(why, "software"));
+    f.lanes_do = false;
+    assert_int_equal(ang_plan_drawing(&f, &why), ANG_DRAW_ENVELOPE);
 }
 
 /* What is not known yet speaks for a part, so that a method builds what it takes to know. */
