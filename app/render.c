@@ -356,7 +356,7 @@ static bool check_budget(session *run, ang_error *err) {
     double ms = isnan(budget->budget.max_ms) ? NAN : run->summary.first_frame_ms;
     if (run->summary.timed_frames > 0) {
         ms = run->summary.median_ms;
-    } else if (!isnan(ms) && run->method != &ang_method_reference) {
+    } else if (!isnan(ms) && !run->method->exact) {
         turn_camera(run, 0);
         frame_progress progress = {.what = "checking the time", .frames = 1};
         /* Without counting the shader is another one, which the first frame compiles. */

@@ -45,9 +45,6 @@ typedef struct planning {
     int interpolation_stride; /* ... which lie so far apart in the picture */
 } planning;
 
-/* It alone has no step, and no error. */
-static bool is_exact(const ang_method *method) { return method == &ang_method_reference; }
-
 /* Voxels: the finest step whose error can be told, from its quarter. */
 static double finest_step(const planning *p, const ang_method *method) {
     double finest = coarsest_step * pow(2, -0.5 * (STEPS - 1));
@@ -93,7 +90,7 @@ static void interpolation_error(const ang_image *image, double *worst, double *r
 }
 
 static bool draw_probe(planning *p, const ang_method *method, ang_renderer *renderer, probe *out, ang_error *err) {
-    ang_scene scene = probe_scene(p->scene, is_exact(method) ? PROBE_SIDE_REFERENCE : PROBE_SIDE);
+    ang_scene scene = probe_scene(p->scene, method->exact ? PROBE_SIDE_REFERENCE : PROBE_SIDE);
     ang_image image;
     ang_frame_stats stats = {0};
     if (!ang_image_create(&image, scene.width, scene.height, err)) return false;
@@ -101,12 +98,12 @@ static bool draw_probe(planning *p, const ang_method *method, ang_renderer *rend
     bool ok = method->render(renderer, &scene, &p->options, &image, &stats, p->progress, err);
     double ms = ang_now_ms() - start;
     /* The first without counting compiles. */
-    for (int i = 0; i < 5 && ok && !is_exact(method); i++) {
+    for (int i = 0; i < 5 && ok && !method->exact; i++) {
         start = ang_now_ms();
         ok = method->render(renderer, &scene, &p->options, &image, NULL, p->progress, err);
         ms = i == 0 ? INFINITY : fmin(ms, ang_now_ms() - start);
     }
-    if (ok && !is_exact(method) && !(p->interpolation > 0)) {
+    if (ok && !method->exact && !(p->interpolation > 0)) {
         interpolation_error(&image, &p->interpolation, &p->interpolation_rms);
         p->interpolation_stride = 2 * scene.sampling.stride;
     }
@@ -142,7 +139,7 @@ static bool has_error(const planning *p, const ang_method *method, measured_erro
             *out = p->probes[i].error;
             return true;
         }
-    return is_exact(method);
+    return method->exact;
 }
 
 /* Draws what the methods in question take. A method that fails where others may do is passed over. */
@@ -189,7 +186,7 @@ static size_t list_candidates(const planning *p, ang_candidate *list) {
         for (int s = 0; s < STEPS; s++)
             for (int k = 0; k < strides; k++) {
                 const probe *from = &p->probes[m];
-                bool exact = is_exact(from->method), slices = from->method == &ang_method_slicing;
+                bool exact = from->method->exact, slices = from->method == &ang_method_slicing;
                 int stride = 1 << k;
                 double step = coarsest_step * pow(2, -0.5 * s), finer = p->measured_step / step;
                 if (exact ? s > 0 : step < finest_step(p, from->method) * (1 - 1e-9)) continue;
@@ -318,7 +315,7 @@ static bool try_best(planning *p, const ang_candidate *list, size_t count, bool 
         double step = largest_error(p, &p->probes[best->method].error, out->step_voxels, 1);
         out->error = ang_error_capped(step + out->between.max);
     }
-    bool looks = !isnan(p->budget->max_error) && (!is_exact(out->method) || out->stride > 1);
+    bool looks = !isnan(p->budget->max_error) && (!out->method->exact || out->stride > 1);
     return !looks || verify(p, asked, out, err);
 }
 
@@ -336,7 +333,7 @@ static bool choose(planning *p, const ang_method *asked, ang_planned *out, ang_e
         if (!try_best(p, list, count, asked != NULL, out, err)) return false;
     }
     for (size_t i = 0; limited && i < count && !out->keeps_error && !asked; i++) {
-        if (!is_exact(p->probes[list[i].method].method)) continue;
+        if (!p->probes[list[i].method].method->exact) continue;
         if (!take(p, &list[i], out, err)) return false;
         out->keeps_error = true;
     }
