@@ -288,7 +288,7 @@ static bool write_picture(session *run, const char *path, const ang_error_estima
 static float *make_counts(session *run, ang_error *err) {
     const ang_scene *scene = &run->picture.scene;
     if (!run->picture.lookups) return NULL;
-    if (!run->method->needs_gl) {
+    if (run->method->exact) {
         ang_fail(err, ANG_USAGE, "--mode lookups: --method %s takes no samples; choose another", run->method->name);
         return NULL;
     }
