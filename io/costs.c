@@ -42,6 +42,7 @@ static bool read_model(const cJSON *item, ang_costs *costs) {
         model->term[i] = term->valuedouble;
     }
     model->spread = cJSON_IsNumber(spread) ? spread->valuedouble : NAN;
+    if (!ang_cost_grows(model)) return false;
     snprintf(costs->of[costs->count++].method, sizeof costs->of[0].method, "%s", name->valuestring);
     return true;
 }
@@ -57,7 +58,8 @@ static bool read_costs(const char *path, const char *key, ang_costs *costs) {
     cJSON_ArrayForEach(item, methods) ok = ok && read_model(item, costs);
     costs->ms = cJSON_IsNumber(ms) ? ms->valuedouble : 0;
     ang_json_close(&json);
-    return ok && costs->count > 0;
+    if (!ok) *costs = (ang_costs){.count = 0};
+    return ok;
 }
 
 static void write_costs(const char *path, const char *key, const ang_costs *costs) {
@@ -89,9 +91,24 @@ bool ang_costs_load(ang_gl *gl, ang_costs *costs, ang_costs_origin *origin, cons
     ang_machine_processor(origin->processor, sizeof origin->processor);
     make_key(origin, key, sizeof key);
     find_path(key, origin->path, sizeof origin->path);
-    origin->cached = read_costs(origin->path, key, costs);
-    if (origin->cached) return true;
+    read_costs(origin->path, key, costs);
+    double before = costs->ms;
     if (!ang_costs_measure(gl, costs, progress, err)) return false;
-    if (origin->path[0]) write_costs(origin->path, key, costs);
+    origin->cached = !(costs->ms > before);
+    if (!origin->cached && origin->path[0]) write_costs(origin->path, key, costs);
     return true;
+}
+
+bool ang_costs_forget(const ang_costs_origin *origin, const char *method) {
+    char key[640];
+    ang_costs costs;
+    size_t left = 0;
+    make_key(origin, key, sizeof key);
+    if (!read_costs(origin->path, key, &costs)) return false;
+    for (size_t i = 0; i < costs.count; i++)
+        if (strcmp(costs.of[i].method, method) != 0) costs.of[left++] = costs.of[i];
+    bool found = left < costs.count;
+    costs.count = left;
+    if (found) write_costs(origin->path, key, &costs);
+    return found;
 }

@@ -12,10 +12,14 @@ typedef struct ang_costs_origin {
 } ang_costs_origin;
 
 /* Reads the models of this OpenGL (NULL: none), processor, number of threads and program from
- * $XDG_CACHE_HOME/angioscope or ~/.cache/angioscope; measures them where they are not there, cannot be read or are of
- * something else, and writes them. A cache that cannot be written is done without. False with ANG_LIMIT,
+ * $XDG_CACHE_HOME/angioscope or ~/.cache/angioscope; measures those that are not there, all where the file cannot be
+ * read or is of something else, and writes them. A cache that cannot be written is done without. False with ANG_LIMIT,
  * ANG_INTERRUPTED. */
 bool ang_costs_load(ang_gl *gl, ang_costs *costs, ang_costs_origin *origin, const ang_progress *progress,
                     ang_error *err);
+
+/* Drops a model that has proved wrong from the cache, so that the next ang_costs_load measures it anew. False where it
+ * is not in there. */
+bool ang_costs_forget(const ang_costs_origin *origin, const char *method);
 
 #endif

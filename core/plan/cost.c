@@ -5,12 +5,14 @@
 #include <math.h>
 #include <stdlib.h>
 
+enum { PICTURE, RAYS, SAMPLES, SHADED, POLYGONS };
+
 static void terms_of(const ang_cost_work *work, double out[ANG_COST_TERMS]) {
-    out[0] = 1;
-    out[1] = work->rays;
-    out[2] = work->samples;
-    out[3] = work->shaded;
-    out[4] = work->polygons;
+    out[PICTURE] = 1;
+    out[RAYS] = work->rays;
+    out[SAMPLES] = work->samples;
+    out[SHADED] = work->shaded;
+    out[POLYGONS] = work->polygons;
 }
 
 double ang_cost_predict(const ang_cost_model *model, const ang_cost_work *work) {
@@ -74,7 +76,8 @@ static double fit_terms(const problem *p, unsigned set, double out[ANG_COST_TERM
     if (!solve(a, n, x)) return INFINITY;
     for (int k = 0; k < ANG_COST_TERMS; k++) out[k] = 0;
     for (int k = 0; k < n; k++) {
-        if (!(x[k] >= 0)) return INFINITY;
+        /* A term of nothing is that of a smaller set. */
+        if (!(x[k] > 0)) return INFINITY;
         out[index[k]] = x[k];
     }
     double sum = 0;
@@ -96,31 +99,57 @@ static double spread_of(const ang_cost_model *model, const ang_cost_measured *me
     return median;
 }
 
-bool ang_cost_fit(const ang_cost_measured *measured, size_t count, ang_cost_model *model) {
+double ang_cost_miss(double predicted, double measured) {
+    if (!(predicted > 0) || !(measured > 0)) return INFINITY;
+    return fmax(predicted / measured, measured / predicted);
+}
+
+double ang_cost_worst(const ang_cost_model *model, const ang_cost_measured *measured, size_t count) {
+    double worst = 1;
+    for (size_t i = 0; i < count; i++)
+        worst = fmax(worst, ang_cost_miss(ang_cost_predict(model, &measured[i].work), measured[i].ms));
+    return worst;
+}
+
+bool ang_cost_grows(const ang_cost_model *model) { return model->term[RAYS] > 0 || model->term[SAMPLES] > 0; }
+
+/* `terms`: which the model may have. */
+static bool fit(const ang_cost_measured *measured, size_t count, unsigned terms, ang_cost_model *model) {
     *model = (ang_cost_model){.spread = NAN};
     problem p = {measured, count, {0}};
     for (size_t i = 0; i < count; i++) {
-        double terms[ANG_COST_TERMS];
+        double of[ANG_COST_TERMS];
         if (!(measured[i].ms > 0)) return false;
-        terms_of(&measured[i].work, terms);
-        for (int k = 0; k < ANG_COST_TERMS; k++) p.scale[k] = fmax(p.scale[k], terms[k] / measured[i].ms);
+        terms_of(&measured[i].work, of);
+        for (int k = 0; k < ANG_COST_TERMS; k++) p.scale[k] = fmax(p.scale[k], of[k] / measured[i].ms);
     }
-    unsigned there = 0;
     for (int k = 0; k < ANG_COST_TERMS; k++) {
-        if (p.scale[k] > 0) there |= 1u << k;
+        if (!(p.scale[k] > 0)) terms &= ~(1u << k);
         p.scale[k] = p.scale[k] > 0 ? 1 / p.scale[k] : 0;
     }
-    /* So few terms that every set of them can be tried: the least squares without negative terms are among them. */
-    double least = INFINITY, terms[ANG_COST_TERMS];
+    /* So few terms that every set of them can be tried: the least squares without negative terms are among them. Sets
+     * without a cost of rays or samples are none: they would promise that a larger picture, or one without shading,
+     * takes no longer. */
+    const unsigned grow = (1u << RAYS | 1u << SAMPLES) & terms;
+    double least = INFINITY, of[ANG_COST_TERMS];
     for (unsigned set = 1; set < 1u << ANG_COST_TERMS; set++) {
-        double sum = (set & ~there) ? INFINITY : fit_terms(&p, set, terms);
+        bool possible = !(set & ~terms) && (set & grow || !grow);
+        double sum = possible ? fit_terms(&p, set, of) : INFINITY;
         if (!(sum < least)) continue;
         least = sum;
-        for (int k = 0; k < ANG_COST_TERMS; k++) model->term[k] = terms[k] * p.scale[k];
+        for (int k = 0; k < ANG_COST_TERMS; k++) model->term[k] = of[k] * p.scale[k];
     }
     if (!isfinite(least)) return false;
     model->spread = spread_of(model, measured, count);
     return true;
+}
+
+bool ang_cost_fit(const ang_cost_measured *measured, size_t count, ang_cost_model *model) {
+    return fit(measured, count, (1u << ANG_COST_TERMS) - 1, model);
+}
+
+bool ang_cost_fit_proportional(const ang_cost_measured *measured, size_t count, ang_cost_model *model) {
+    return fit(measured, count, 1u << RAYS | 1u << SAMPLES | 1u << SHADED, model);
 }
 
 ang_cost_work ang_cost_scale(const ang_cost_work *work, double pixels, double samples, bool slices) {

@@ -24,9 +24,20 @@ typedef struct ang_cost_measured {
     double ms;
 } ang_cost_measured;
 
-/* Least squares of relative errors with no negative term. False, and a model of zeros, where nothing was measured or no
- * time is positive. Thread safe. */
+/* Least squares of relative errors with no negative term and, where there were rays or samples, a positive one for
+ * either. False, and a model of zeros, where nothing was measured, a time is not positive or no such model fits. Thread
+ * safe. */
 bool ang_cost_fit(const ang_cost_measured *measured, size_t count, ang_cost_model *model);
+/* The same without what a picture and a polygon cost: the whole time grows with the picture. For measurements that no
+ * model with a fixed part fits, which such a part must not hide. */
+bool ang_cost_fit_proportional(const ang_cost_measured *measured, size_t count, ang_cost_model *model);
+
+/* By which factor, >= 1, a prediction is off, above or below; infinite where either is not positive. */
+double ang_cost_miss(double predicted, double measured);
+/* The greatest of these over some pictures. */
+double ang_cost_worst(const ang_cost_model *model, const ang_cost_measured *measured, size_t count);
+/* Whether more rays or more samples cost more, as in every model that was fitted to any. */
+bool ang_cost_grows(const ang_cost_model *model);
 
 /* ms. */
 double ang_cost_predict(const ang_cost_model *model, const ang_cost_work *work);

@@ -11,6 +11,9 @@
 /* Pixels a side of the pictures that show what the scene takes; the reference takes a millisecond a pixel. */
 enum { PROBE_SIDE = 64, PROBE_SIDE_REFERENCE = 10, MOST_METHODS = 8, MOST_ROUNDS = 4 };
 
+/* Time for which a picture of some pixels is drawn again, the fastest of which counts. */
+static const double least_probe_ms = 50;
+
 /* Steps that are considered, from the coarsest: each has 1.4 times the samples of the one before. */
 static const double coarsest_step = 4;
 enum { STEPS = 16, STRIDES = 3, MOST_CANDIDATES = MOST_METHODS * STEPS * STRIDES };
@@ -94,11 +97,13 @@ static bool draw_probe(planning *p, const ang_method *method, ang_renderer *rend
     ang_image image;
     ang_frame_stats stats = {0};
     if (!ang_image_create(&image, scene.width, scene.height, err)) return false;
-    double start = ang_now_ms();
+    const double first = ang_now_ms();
+    double start = first;
     bool ok = method->render(renderer, &scene, &p->options, &image, &stats, p->progress, err);
     double ms = ang_now_ms() - start;
-    /* The first without counting compiles. */
-    for (int i = 0; i < 5 && ok && !method->exact; i++) {
+    /* The first without counting compiles. Few pixels may take less time than other work on the machine holds them up.
+     */
+    for (int i = method->exact; ok && ((!method->exact && i < 5) || ang_now_ms() - first < least_probe_ms); i++) {
         start = ang_now_ms();
         ok = method->render(renderer, &scene, &p->options, &image, NULL, p->progress, err);
         ms = i == 0 ? INFINITY : fmin(ms, ang_now_ms() - start);

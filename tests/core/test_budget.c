@@ -63,6 +63,64 @@ static void noise_makes_no_negative_terms(void **state) {
     assert_false(ang_cost_fit(&nothing, 1, &model));
 }
 
+/* Pictures of a method whose shaded ones alone cost much, their times off by up to `noise` either way and one of them
+ * by `burst`. */
+static void measure_noisy(ang_cost_measured measured[9], const ang_cost_model *truth, double noise, double burst,
+                          uint64_t *random) {
+    static const ang_cost_work work[9] = {{4, 0, 0, 0},        {64, 3000, 0, 0},       {576, 28000, 0, 0},
+                                          {64, 5000, 5000, 0}, {256, 22000, 22000, 0}, {144, 1400, 0, 0},
+                                          {2300, 20000, 0, 0}, {144, 34, 0, 0},        {2300, 700, 0, 0}};
+    size_t hit = (size_t)(9 * random_unit(random)) % 9;
+    for (size_t i = 0; i < 9; i++) {
+        double by = 1 + noise * (2 * random_unit(random) - 1);
+        measured[i] = (ang_cost_measured){work[i], ang_cost_predict(truth, &work[i]) * by * (i == hit ? burst : 1)};
+    }
+}
+
+/* Whatever the noise, a hundred times the unshaded work never is for nothing; and where the times are off by up to 30 %
+ * pictures of a hundred times the rays are told to a factor of 2. */
+static void no_fit_promises_larger_pictures_for_nothing(void **state) {
+    (void)state;
+    const ang_cost_model truth = {.term = {0.02, 9e-4, 1.3e-4, 5e-5, 0}};
+    const ang_cost_work large[] = {{23e4, 2e6, 0, 0}, {23e4, 7e4, 0, 0}, {5e4, 3e6, 0, 0}, {5e4, 4e6, 4e6, 0}};
+    uint64_t random = 12;
+    for (int n = 0; n < 400; n++) {
+        ang_cost_measured measured[9];
+        ang_cost_model model;
+        bool calm = n < 200;
+        measure_noisy(measured, &truth, calm ? 0.3 : 0.9, calm ? 1 : 30, &random);
+        assert_true(ang_cost_fit(measured, 9, &model));
+        assert_true(ang_cost_grows(&model));
+        for (size_t i = 0; i < 4; i++) {
+            double predicted = ang_cost_predict(&model, &large[i]);
+            assert_true(predicted > model.term[0]);
+            if (calm) assert_true(ang_cost_miss(predicted, ang_cost_predict(&truth, &large[i])) < 2);
+        }
+        assert_true(ang_cost_fit_proportional(measured, 9, &model));
+        assert_close(model.term[0], 0, 0);
+        assert_close(model.term[4], 0, 0);
+        assert_true(ang_cost_grows(&model));
+    }
+    /* Times without any sense: neither rays nor samples are in a model that has the least squares, shading is. */
+    const ang_cost_measured senseless[] = {
+        {{64, 3000, 0, 0}, 9}, {{576, 28000, 0, 0}, 9}, {{64, 5000, 5000, 0}, 11}, {{256, 22000, 22000, 0}, 19}};
+    ang_cost_model model;
+    assert_true(ang_cost_fit(senseless, 4, &model));
+    assert_true(ang_cost_grows(&model));
+}
+
+static void what_a_model_misses_is_told(void **state) {
+    (void)state;
+    const ang_cost_model model = {.term = {0, 1, 0, 0, 0}};
+    const ang_cost_measured measured[] = {{{10, 0, 0, 0}, 12}, {{10, 0, 0, 0}, 4}, {{10, 0, 0, 0}, 11}};
+    assert_close(ang_cost_miss(2, 6), 3, 1e-12);
+    assert_close(ang_cost_miss(6, 2), 3, 1e-12);
+    assert_true(isinf(ang_cost_miss(0, 2)));
+    assert_true(isinf(ang_cost_miss(NAN, 2)));
+    assert_close(ang_cost_worst(&model, measured, 3), 2.5, 1e-12);
+    assert_close(ang_cost_worst(&model, NULL, 0), 1, 0);
+}
+
 static void work_scales_with_pixels_and_steps(void **state) {
     (void)state;
     ang_cost_work work = {100, 5000, 400, 30};
@@ -158,6 +216,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(terms_are_found_again),
         cmocka_unit_test(noise_makes_no_negative_terms),
+        cmocka_unit_test(no_fit_promises_larger_pictures_for_nothing),
+        cmocka_unit_test(what_a_model_misses_is_told),
         cmocka_unit_test(work_scales_with_pixels_and_steps),
         cmocka_unit_test(budgets_choose_what_is_expected),
         cmocka_unit_test(choices_are_monotone),
