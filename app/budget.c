@@ -4,6 +4,9 @@
 
 #include <math.h>
 
+/* A prediction that is off by this factor, either way, is none. */
+static const double far_off = 10;
+
 bool ang_app_budget_given(const ang_options *options) {
     return !isnan(options->max_error) || !isnan(options->max_time);
 }
@@ -58,6 +61,13 @@ void ang_app_budget_check(ang_app_budget *budget, double measured_ms, ang_notes 
     if (!budget->time_kept)
         ang_notes_add(warnings, "--max-time %.6g was missed: a frame took %.0f ms, %.0f were predicted",
                       budget->budget.max_ms, measured_ms, planned->ms);
+    budget->forgotten = ang_cost_miss(planned->ms, measured_ms) >= far_off && !isnan(measured_ms) &&
+                        ang_costs_forget(&budget->origin, planned->method->name);
+    if (budget->forgotten)
+        ang_notes_add(warnings,
+                      "the cost model of %s was off by a factor of %.0f here and is dropped: the next picture with "
+                      "--max-error or --max-time measures it anew",
+                      planned->method->name, ang_cost_miss(planned->ms, measured_ms));
 }
 
 static cJSON *model_json(const ang_cost_model *model) {
@@ -90,6 +100,7 @@ cJSON *ang_app_budget_json(const ang_app_budget *budget) {
     cJSON_AddStringToObject(costs, "gl_renderer", budget->origin.gl);
     cJSON_AddStringToObject(costs, "processor", budget->origin.processor);
     cJSON_AddBoolToObject(costs, "cached", budget->origin.cached);
+    cJSON_AddBoolToObject(costs, "dropped", budget->forgotten);
     ang_json_add_number(costs, "measuring_ms", budget->costs.ms);
     for (size_t i = 0; i < budget->costs.count; i++)
         cJSON_AddItemToObject(costs, budget->costs.of[i].method, model_json(&budget->costs.of[i].model));

@@ -17,6 +17,7 @@ typedef struct ang_app_budget {
     ang_costs_origin origin;
     ang_planned planned;
     double measured_ms;         /* of a frame, once all is built; NaN: no time was asked for */
+    bool forgotten;             /* the cost model was so far off that it was dropped */
     bool error_kept, time_kept; /* afterwards; true where nothing was asked for */
 } ang_app_budget;
 
