@@ -1,5 +1,6 @@
 /* Envelope and skipping change no bit: against the single pass, on every backend that is here. */
 #include "tests/core/backends.h"
+#include "tests/core/drawer.h"
 #include "tests/core/scenes.h"
 
 #include "core/render/envelope_hull.h"
@@ -10,28 +11,6 @@
 #include <string.h>
 
 static const ang_render_options exact = {.step_voxels = 0.5, .termination = 1, .gradients = ANG_GRADIENTS_LOOKUPS};
-
-typedef struct drawer {
-    const ang_method *method;
-    ang_renderer *renderer;
-} drawer;
-
-static drawer open_drawer(ang_gl *gl, const ang_method *method, const ang_volume *volume) {
-    ang_error err = {0};
-    drawer d = {method, method->create(gl, volume, &exact, &err)};
-    if (!d.renderer) fail_msg("%s", err.message);
-    return d;
-}
-
-static ang_image draw(const drawer *d, const ang_scene *scene, const ang_render_options *options,
-                      ang_frame_stats *stats) {
-    ang_error err = {0};
-    ang_image image;
-    assert_true(ang_image_create(&image, scene->width, scene->height, &err));
-    if (!d->method->render(d->renderer, scene, options, &image, stats, NULL, &err)) fail_msg("%s", err.message);
-    for (int i = 0; i < 4 * image.width * image.height; i++) assert_true(isfinite(image.rgba[i]));
-    return image;
-}
 
 /* How far the envelope's picture is from the single pass's. */
 static double apart(const drawer *envelope, const drawer *singlepass, const ang_scene *scene,

@@ -1,6 +1,7 @@
 /* Prefix-integrated classification against closed forms, numerical integration and the reference, and with skipping
  * against itself; every method, on every backend here. */
 #include "tests/core/backends.h"
+#include "tests/core/drawer.h"
 #include "tests/core/scenes.h"
 
 #include "core/error/metrics.h"
@@ -24,29 +25,6 @@ static double steep_ramp(int x, int y, int z) {
 static double ramp_zero(int x, int y, int z) {
     (void)x, (void)y, (void)z;
     return 0;
-}
-
-typedef struct drawer {
-    const ang_method *method;
-    ang_renderer *renderer;
-} drawer;
-
-static drawer open_drawer(ang_gl *gl, const ang_method *method, const ang_volume *volume) {
-    ang_error err = {0};
-    drawer d = {method, method->create(gl, volume, &ang_render_options_default, &err)};
-    if (!d.renderer) fail_msg("%s", err.message);
-    return d;
-}
-
-static ang_image draw(const drawer *d, const ang_scene *scene, const ang_render_options *options,
-                      ang_frame_stats *stats) {
-    ang_error err = {0};
-    ang_image image;
-    assert_true(ang_image_create(&image, scene->width, scene->height, &err));
-    if (!d->method->render(d->renderer, scene, options, &image, stats, NULL, &err))
-        fail_msg("%s: %s", d->method->name, err.message);
-    for (int i = 0; i < 4 * image.width * image.height; i++) assert_true(isfinite(image.rgba[i]));
-    return image;
 }
 
 /* Adaptive Simpson of the extinction. */
