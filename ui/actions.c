@@ -1,30 +1,13 @@
-/* Everything that can be done by menu or key, in one table; menus, shortcuts and the help overlay are made of it. */
+/* Everything that can be done by menu or key, in one table. */
 #include "ui/viewer_private.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-typedef struct action {
-    const char *menu; /* NULL: only a key */
-    const char *name;
-    const char *help; /* what the name does not say; NULL: nothing */
-    int key;          /* ang_key; 0: none */
-    unsigned modifiers;
-    void (*run)(ang_viewer *viewer, int argument);
-    int argument;
-    bool apart;                                              /* from what stands before it in the menu */
-    bool (*enabled)(const ang_viewer *viewer);               /* NULL: always */
-    bool (*checked)(const ang_viewer *viewer, int argument); /* NULL: no tick */
-} action;
-
-typedef struct window_preset {
-    const char *name;
-    double width, centre; /* HU */
-} window_preset;
-static const window_preset windows[] = {{"Of the file", NAN, NAN}, {"CTA", 600, 200},    {"Soft tissue", 400, 40},
-                                        {"Bone", 2000, 400},       {"Lung", 1500, -600}, {"Brain", 80, 40},
-                                        {"Mediastinum", 350, 50},  {"Liver", 150, 70},   {"Stent", 2500, 700}};
+static const ang_window_preset windows[] = {{"Of the file", NAN, NAN}, {"CTA", 600, 200},    {"Soft tissue", 400, 40},
+                                            {"Bone", 2000, 400},       {"Lung", 1500, -600}, {"Brain", 80, 40},
+                                            {"Mediastinum", 350, 50},  {"Liver", 150, 70},   {"Stent", 2500, 700}};
 enum { window_count = sizeof windows / sizeof *windows };
 
 static bool is_ready(const ang_viewer *viewer) { return viewer->ready; }
@@ -173,9 +156,9 @@ static void set_window(ang_viewer *viewer, int argument) {
     viewer->document.window_width = width;
 }
 
-static void choose_window(ang_viewer *viewer, int argument) {
+void ang_window_preset_choose(ang_viewer *viewer, int index) {
     viewer->hovered = ANG_PANES; /* from the menu it is the window that is meant */
-    set_window(viewer, argument);
+    set_window(viewer, index);
 }
 
 static void browse(ang_viewer *viewer, int argument) {
@@ -193,7 +176,7 @@ static void show_notes(ang_viewer *viewer, int argument) {
 
 enum { C = ANG_MOD_CONTROL, S = ANG_MOD_SHIFT, A = ANG_MOD_ALT };
 
-static const action actions[] = {
+static const ang_action actions[] = {
     {"File", "Open...", "a folder or file; or drop it on the window", 'O', C, open_path, 0, false, NULL, NULL},
     {"File", "Save picture of the pane", "under the pointer; refined, without writing on it", 'S', C, save_pane, 0,
      true, is_ready, NULL},
@@ -235,11 +218,18 @@ static const action actions[] = {
 };
 enum { action_count = sizeof actions / sizeof *actions };
 
-static const char *shortcut(int key, unsigned modifiers, char text[32]) {
-    char name[8];
-    snprintf(text, 32, "%s%s%s%s", modifiers & C ? "Ctrl+" : "", modifiers & A ? "Alt+" : "",
-             modifiers & S ? "Shift+" : "", ang_key_name(key, name));
-    return text;
+const ang_action *ang_actions(int *count) {
+    *count = action_count;
+    return actions;
+}
+
+const ang_window_preset *ang_window_presets(int *count) {
+    *count = window_count;
+    return windows;
+}
+
+bool ang_action_enabled(const ang_viewer *viewer, const ang_action *action) {
+    return !action->enabled || action->enabled(viewer);
 }
 
 /* What is open or under way ends, the foremost first. */
@@ -264,9 +254,9 @@ static void escape(ang_viewer *viewer) {
 
 static void press(ang_viewer *viewer, int key, unsigned modifiers) {
     for (int i = 0; i < action_count; i++) {
-        const action *action = &actions[i];
+        const ang_action *action = &actions[i];
         if (action->key != key || action->modifiers != modifiers) continue;
-        if (!action->enabled || action->enabled(viewer)) action->run(viewer, action->argument);
+        if (ang_action_enabled(viewer, action)) action->run(viewer, action->argument);
         return;
     }
     if (key >= '1' && key < '1' + window_count && modifiers == 0 && viewer->ready) set_window(viewer, key - '1');
@@ -286,83 +276,4 @@ void ang_actions_keys(ang_viewer *viewer) {
         if (key == ANG_KEY_NONE || viewer->typing || ang_gui_popup_open(viewer->gui)) continue;
         press(viewer, key, input->press[i].modifiers);
     }
-}
-
-static void list_windows(ang_viewer *viewer) {
-    if (!ang_gui_menu_begin(viewer->gui, "Window level")) return;
-    for (int i = 0; i < window_count; i++) {
-        char text[80], key[2] = {(char)('1' + i), '\0'};
-        if (i == 0)
-            snprintf(text, sizeof text, "%s", windows[i].name);
-        else
-            snprintf(text, sizeof text, "%s   W %.0f  C %.0f", windows[i].name, windows[i].width, windows[i].centre);
-        if (ang_gui_menu_item(viewer->gui, text, key, false, viewer->ready)) choose_window(viewer, i);
-    }
-    ang_gui_menu_end(viewer->gui);
-}
-
-double ang_actions_menus(ang_viewer *viewer) {
-    ang_gui *gui = viewer->gui;
-    double height = ang_gui_menu_bar_begin(gui);
-    for (int first = 0; first < action_count;) {
-        const char *menu = actions[first].menu;
-        int end = first;
-        while (end < action_count && strcmp(actions[end].menu, menu) == 0) end++;
-        if (strcmp(menu, "Help") == 0) list_windows(viewer);
-        bool open = ang_gui_menu_begin(gui, menu);
-        for (int i = first; i < end && open; i++) {
-            const action *action = &actions[i];
-            char text[32];
-            bool enabled = !action->enabled || action->enabled(viewer);
-            bool checked = action->checked && viewer->ready && action->checked(viewer, action->argument);
-            if (action->apart) ang_gui_menu_separator(gui);
-            if (ang_gui_menu_item(gui, action->name, shortcut(action->key, action->modifiers, text), checked, enabled))
-                action->run(viewer, action->argument);
-            if (action->help) ang_gui_tooltip(gui, action->help);
-        }
-        if (open) ang_gui_menu_end(gui);
-        first = end;
-    }
-    ang_gui_menu_bar_end(gui);
-    return height;
-}
-
-/* What is no action but done by hand. */
-static const struct {
-    const char *hand, *does;
-} hands[] = {
-    {"Left drag", "slice: the tool; 3D: turn"},   {"Click", "crosshair here; 3D: to what shows first"},
-    {"Middle drag, Space + left drag", "pan"},    {"Right drag, Ctrl + wheel", "zoom about the pointer"},
-    {"Wheel", "slice: scroll; 3D: zoom"},         {"Shift + drag in 3D", "up, down: shift the preset; across: stretch"},
-    {"Double click", "the pane large, and back"}, {"Shift in a drag of numbers", "ten times finer"},
-    {"Esc", "cancel a drag, loading, a window"},  {"1 ... 9", "windows; over the 3D pane: presets"},
-};
-
-static void help_cells(ang_gui *gui, const char *left, const char *right) {
-    ang_gui_table_next(gui);
-    ang_gui_text(gui, "%s", left);
-    ang_gui_table_next(gui);
-    ang_gui_text_dim(gui, "%s", right);
-}
-
-void ang_actions_help(ang_viewer *viewer) {
-    if (!viewer->help) return;
-    ang_gui *gui = viewer->gui;
-    char text[32];
-    ang_gui_message_begin(gui, "help");
-    bool open = ang_gui_table_begin(gui, "keys", 6);
-    enum { hand_count = sizeof hands / sizeof *hands, rows = (action_count + 1) / 2 };
-    for (int i = 0; i < rows && open; i++) {
-        for (int k = i; k < i + 2 * rows; k += rows) {
-            bool there = k < action_count;
-            help_cells(gui, there ? shortcut(actions[k].key, actions[k].modifiers, text) : "",
-                       there ? actions[k].name : "");
-        }
-        help_cells(gui, i < hand_count ? hands[i].hand : "", i < hand_count ? hands[i].does : "");
-    }
-    if (open) ang_gui_table_end(gui);
-    ang_gui_gap(gui, ang_gui_px(gui, 8));
-    ang_gui_text_dim(gui, "Angioscope %s. Not a medical device; not for diagnosis. F1 or Esc closes this.",
-                     viewer->host->version);
-    ang_gui_message_end(gui);
 }

@@ -1,7 +1,7 @@
 #include "ui/loading.h"
 
 #include "core/base/clock.h"
-#include "ui/window.h"
+#include "ui/toolkit/window.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -10,9 +10,9 @@
 #include "core/scene/image.h"
 #include "core/transfer/preset.h"
 #include "core/volume/volume.h"
-#include "ui/document.h"
 #include "ui/gui.h"
-#include "ui/slice_geometry.h"
+#include "ui/state/document.h"
+#include "ui/state/slice_geometry.h"
 
 /* What has been loaded. Owned by the host until `release`. */
 typedef struct ang_study {

@@ -111,16 +111,26 @@ typedef struct ang_viewer {
 } ang_viewer;
 
 /* viewer.c */
-extern const ang_view ang_viewer_first_view;
 void ang_viewer_say(ang_viewer *viewer, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* study.c */
+extern const ang_view ang_viewer_first_view;
 void ang_viewer_open(ang_viewer *viewer, const char *path);
+/* Shows what has been loaded meanwhile. */
+void ang_study_take_loaded(ang_viewer *viewer, const char *wanted_preset);
+void ang_study_close(ang_viewer *viewer);
 void ang_viewer_choose_preset(ang_viewer *viewer, const ang_preset *preset);
-void ang_viewer_save_preset(ang_viewer *viewer);
 /* The crosshair to a place, kept within the volume and on slices. */
 void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm);
 /* The window that the file asks for, else one that suits. */
 void ang_viewer_file_window(const ang_viewer *viewer, double *centre, double *width);
 double ang_viewer_hu_at(const ang_viewer *viewer, ang_vec3 mm); /* NaN outside */
+
+/* saving.c */
+void ang_viewer_save_preset(ang_viewer *viewer);
+void ang_save_window(ang_viewer *viewer);
+/* The 3D pane's picture only once it is refined. */
+void ang_save_pane(ang_viewer *viewer);
 
 /* slice_pane.c */
 void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect);
@@ -155,7 +165,8 @@ void ang_pane_corner(ang_viewer *viewer, ang_rect rect, int right, int bottom, i
 void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane);
 void ang_status_line(ang_viewer *viewer, ang_rect rect);
 
-/* panel.c, transfer_editor.c */
+/* messages.c, panel.c, transfer_editor.c */
+void ang_messages(ang_viewer *viewer);
 void ang_panel(ang_viewer *viewer, ang_rect rect);
 void ang_transfer_editor(ang_viewer *viewer);
 void ang_transfer_editor_start(ang_viewer *viewer);
@@ -169,9 +180,35 @@ bool ang_thumbnails_wanted(const ang_viewer *viewer);
 void ang_thumbnails_step(ang_viewer *viewer);
 void ang_thumbnails_clear(ang_viewer *viewer);
 
-/* actions.c */
+/* actions.c, menus.c */
+/* Something that can be done by menu or key. */
+typedef struct ang_action {
+    const char *menu;
+    const char *name;
+    const char *help; /* what the name does not say; NULL: nothing */
+    int key;          /* ang_key; 0: none */
+    unsigned modifiers;
+    void (*run)(ang_viewer *viewer, int argument);
+    int argument;
+    bool apart;                                              /* from what stands before it in the menu */
+    bool (*enabled)(const ang_viewer *viewer);               /* NULL: always */
+    bool (*checked)(const ang_viewer *viewer, int argument); /* NULL: no tick */
+} ang_action;
+/* All of them, those of a menu together. */
+const ang_action *ang_actions(int *count);
+bool ang_action_enabled(const ang_viewer *viewer, const ang_action *action);
 void ang_actions_keys(ang_viewer *viewer);
-double ang_actions_menus(ang_viewer *viewer); /* the bar's height */
-void ang_actions_help(ang_viewer *viewer);
+/* Windows of slices: keys 1 to 9. */
+typedef struct ang_window_preset {
+    const char *name;
+    double width, centre; /* HU; NaN: as the file asks */
+} ang_window_preset;
+const ang_window_preset *ang_window_presets(int *count);
+void ang_window_preset_choose(ang_viewer *viewer, int index);
+
+double ang_menus(ang_viewer *viewer); /* the bar's height */
+void ang_help(ang_viewer *viewer);
+/* "Ctrl+S" of an action; empty where it has no key. */
+const char *ang_action_shortcut(const ang_action *action, char text[32]);
 
 #endif

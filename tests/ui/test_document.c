@@ -1,7 +1,7 @@
 /* Editing a transfer function, and taking it back. */
 #include "tests/core/fixtures.h"
 
-#include "ui/document.h"
+#include "ui/state/document.h"
 
 #include <string.h>
 

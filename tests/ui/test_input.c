@@ -6,7 +6,7 @@
 /* after them */
 #include <cmocka.h>
 
-#include "ui/input.h"
+#include "ui/toolkit/input.h"
 
 #include <string.h>
 

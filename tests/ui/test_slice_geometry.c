@@ -2,7 +2,7 @@
 #include "tests/core/fixtures.h"
 
 #include "core/scene/annotation.h"
-#include "ui/slice_geometry.h"
+#include "ui/state/slice_geometry.h"
 
 #include <string.h>
 

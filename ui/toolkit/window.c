@@ -1,4 +1,4 @@
-#include "ui/window.h"
+#include "ui/toolkit/window.h"
 
 #include "core/base/clock.h"
 #include "core/base/memory.h"

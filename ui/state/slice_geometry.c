@@ -1,4 +1,4 @@
-#include "ui/slice_geometry.h"
+#include "ui/state/slice_geometry.h"
 
 #include <math.h>
 

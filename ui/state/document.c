@@ -1,4 +1,4 @@
-#include "ui/document.h"
+#include "ui/state/document.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "ui/input.h"
+#include "ui/toolkit/input.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/render/context.h"
-#include "ui/input.h"
+#include "ui/toolkit/input.h"
 
 typedef struct ang_window ang_window;
 

@@ -1,0 +1,99 @@
+/* Menus and the help overlay, made of the table of actions. */
+#include "ui/viewer_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *ang_action_shortcut(const ang_action *action, char text[32]) {
+    char name[8];
+    unsigned modifiers = action->modifiers;
+    snprintf(text, 32, "%s%s%s%s", modifiers & ANG_MOD_CONTROL ? "Ctrl+" : "", modifiers & ANG_MOD_ALT ? "Alt+" : "",
+             modifiers & ANG_MOD_SHIFT ? "Shift+" : "", action->key ? ang_key_name(action->key, name) : "");
+    return text;
+}
+
+static void list_windows(ang_viewer *viewer) {
+    int window_count;
+    const ang_window_preset *windows = ang_window_presets(&window_count);
+    if (!ang_gui_menu_begin(viewer->gui, "Window level")) return;
+    for (int i = 0; i < window_count; i++) {
+        char text[80], key[2] = {(char)('1' + i), '\0'};
+        if (i == 0)
+            snprintf(text, sizeof text, "%s", windows[i].name);
+        else
+            snprintf(text, sizeof text, "%s   W %.0f  C %.0f", windows[i].name, windows[i].width, windows[i].centre);
+        if (ang_gui_menu_item(viewer->gui, text, key, false, viewer->ready)) ang_window_preset_choose(viewer, i);
+    }
+    ang_gui_menu_end(viewer->gui);
+}
+
+double ang_menus(ang_viewer *viewer) {
+    ang_gui *gui = viewer->gui;
+    int action_count;
+    const ang_action *actions = ang_actions(&action_count);
+    double height = ang_gui_menu_bar_begin(gui);
+    for (int first = 0; first < action_count;) {
+        const char *menu = actions[first].menu;
+        int end = first;
+        while (end < action_count && strcmp(actions[end].menu, menu) == 0) end++;
+        if (strcmp(menu, "Help") == 0) list_windows(viewer);
+        bool open = ang_gui_menu_begin(gui, menu);
+        for (int i = first; i < end && open; i++) {
+            const ang_action *action = &actions[i];
+            char text[32];
+            bool enabled = ang_action_enabled(viewer, action);
+            bool checked = action->checked && viewer->ready && action->checked(viewer, action->argument);
+            if (action->apart) ang_gui_menu_separator(gui);
+            if (ang_gui_menu_item(gui, action->name, ang_action_shortcut(action, text), checked, enabled))
+                action->run(viewer, action->argument);
+            if (action->help) ang_gui_tooltip(gui, action->help);
+        }
+        if (open) ang_gui_menu_end(gui);
+        first = end;
+    }
+    ang_gui_menu_bar_end(gui);
+    return height;
+}
+
+/* What is no action but done by hand. */
+static const struct {
+    const char *hand, *does;
+} hands[] = {
+    {"Left drag", "slice: the tool; 3D: turn"},   {"Click", "crosshair here; 3D: to what shows first"},
+    {"Middle drag, Space + left drag", "pan"},    {"Right drag, Ctrl + wheel", "zoom about the pointer"},
+    {"Wheel", "slice: scroll; 3D: zoom"},         {"Shift + drag in 3D", "up, down: shift the preset; across: stretch"},
+    {"Double click", "the pane large, and back"}, {"Shift in a drag of numbers", "ten times finer"},
+    {"Esc", "cancel a drag, loading, a window"},  {"1 ... 9", "windows; over the 3D pane: presets"},
+};
+
+static void help_cells(ang_gui *gui, const char *left, const char *right) {
+    ang_gui_table_next(gui);
+    ang_gui_text(gui, "%s", left);
+    ang_gui_table_next(gui);
+    ang_gui_text_dim(gui, "%s", right);
+}
+
+void ang_help(ang_viewer *viewer) {
+    if (!viewer->help) return;
+    ang_gui *gui = viewer->gui;
+    int action_count;
+    const ang_action *actions = ang_actions(&action_count);
+    char text[32];
+    ang_gui_message_begin(gui, "help");
+    bool open = ang_gui_table_begin(gui, "keys", 6);
+    enum { hand_count = sizeof hands / sizeof *hands };
+    int rows = (action_count + 1) / 2;
+    for (int i = 0; i < rows && open; i++) {
+        for (int k = i; k < i + 2 * rows; k += rows) {
+            bool there = k < action_count;
+            help_cells(gui, there ? ang_action_shortcut(&actions[k], text) : "", there ? actions[k].name : "");
+        }
+        help_cells(gui, i < hand_count ? hands[i].hand : "", i < hand_count ? hands[i].does : "");
+    }
+    if (open) ang_gui_table_end(gui);
+    ang_gui_gap(gui, ang_gui_px(gui, 8));
+    ang_gui_text_dim(gui, "Angioscope %s. Not a medical device; not for diagnosis. F1 or Esc closes this.",
+                     viewer->host->version);
+    ang_gui_message_end(gui);
+}

@@ -1,0 +1,122 @@
+/* The series that is shown: from opening it to letting it go. */
+#include "ui/viewer_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* At zoom 1 a picture holds the volume from any side, with much room around it from most. */
+const ang_view ang_viewer_first_view = {.zoom = 1.6, .projection = ANG_PERSPECTIVE, .fov_deg = 30};
+
+double ang_viewer_hu_at(const ang_viewer *viewer, ang_vec3 mm) {
+    const ang_volume *volume = viewer->study.volume;
+    ang_mat4 to_index;
+    ang_vec3 lower, upper;
+    if (!ang_mat4_inverse(&volume->affine, &to_index)) return NAN;
+    ang_volume_box(volume, &lower, &upper);
+    ang_vec3 at = ang_mat4_point(&to_index, mm);
+    for (int axis = 0; axis < 3; axis++)
+        if (ang_vec3_at(at, axis) < ang_vec3_at(lower, axis) - 1e-4 ||
+            ang_vec3_at(at, axis) > ang_vec3_at(upper, axis) + 1e-4)
+            return NAN;
+    return ang_volume_hu(volume, ang_volume_sample(volume, at));
+}
+
+void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm) {
+    for (int i = 0; i < ANG_ORIENTATIONS; i++)
+        mm = ang_slice_place(&viewer->range[i], mm, ang_slice_index(&viewer->range[i], mm));
+    viewer->crosshair = mm;
+}
+
+void ang_viewer_choose_preset(ang_viewer *viewer, const ang_preset *preset) {
+    ang_document_take_preset(&viewer->document, preset);
+    viewer->chosen = viewer->document;
+    viewer->point = -1;
+}
+
+void ang_viewer_file_window(const ang_viewer *viewer, double *centre, double *width) {
+    const ang_study *study = &viewer->study;
+    *centre = study->hounsfield ? 40 : (viewer->editor_low + viewer->editor_high) / 2;
+    *width = study->hounsfield ? 400 : viewer->editor_high - viewer->editor_low;
+    if (!isfinite(study->window_centre) || !(study->window_width > 0)) return;
+    *centre = study->window_centre;
+    *width = study->window_width;
+}
+
+static const ang_preset *preset_named(const ang_viewer *viewer, const char *name) {
+    for (int i = 0; viewer->host->presets[i]; i++)
+        if (strcmp(viewer->host->presets[i]->name, name) == 0) return viewer->host->presets[i];
+    return NULL;
+}
+
+/* The preset to begin with; one of the host's making where the values are no Hounsfield units. */
+static const ang_preset *first_preset(ang_viewer *viewer, const char *wanted, ang_error *err) {
+    const ang_preset *found = wanted ? preset_named(viewer, wanted) : NULL;
+    if (found) return found;
+    viewer->own_preset = viewer->host->preset_for(viewer->host->context, &viewer->study, err);
+    return viewer->own_preset;
+}
+
+void ang_study_close(ang_viewer *viewer) {
+    if (!viewer->ready) return;
+    ang_thumbnails_clear(viewer);
+    ang_volume_picture_clear(viewer);
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) ang_slice_picture_clear(viewer, &viewer->slice[i]);
+    free(viewer->histogram);
+    viewer->histogram = NULL;
+    ang_history_clear(&viewer->history);
+    ang_preset_free(viewer->own_preset);
+    viewer->own_preset = NULL;
+    viewer->host->release(viewer->host->context, &viewer->study);
+    viewer->study = (ang_study){0};
+    viewer->ready = false;
+}
+
+static void show_study(ang_viewer *viewer, const ang_study *study, const char *wanted_preset) {
+    ang_study_close(viewer);
+    viewer->study = *study;
+    viewer->ready = true;
+    ang_document *document = &viewer->document;
+    memset(document, 0, sizeof *document);
+    document->view = ang_viewer_first_view;
+    document->iso_hu = 300;
+    ang_transfer_editor_start(viewer);
+    ang_error err = {0};
+    const ang_preset *preset = first_preset(viewer, wanted_preset, &err);
+    if (!preset) {
+        ang_study_close(viewer);
+        snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);
+        return;
+    }
+    ang_viewer_choose_preset(viewer, preset);
+    ang_viewer_file_window(viewer, &document->window_centre, &document->window_width);
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
+        viewer->range[i] = ang_slice_range_of(study->volume, (ang_orientation)i);
+        viewer->slice[i].view = ang_slice_view_default;
+    }
+    ang_viewer_point_at(viewer, ang_volume_centre(study->volume));
+    ang_history_note(&viewer->history, document, 0);
+}
+
+void ang_viewer_open(ang_viewer *viewer, const char *path) {
+    ang_error err = {0};
+    ang_loading_end(&viewer->loading);
+    viewer->failure[0] = '\0';
+    if (!ang_loading_start(&viewer->loading, viewer->host, path, &err))
+        snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);
+}
+
+void ang_study_take_loaded(ang_viewer *viewer, const char *wanted_preset) {
+    bool done;
+    ang_study study;
+    ang_error err;
+    if (!ang_loading_take(&viewer->loading, &done, &study, &err)) return;
+    if (done)
+        show_study(viewer, &study, wanted_preset);
+    else if (err.code == ANG_INTERRUPTED)
+        snprintf(viewer->failure, sizeof viewer->failure, "Loading was cancelled.");
+    else
+        snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);
+    viewer->redraws = 2;
+}

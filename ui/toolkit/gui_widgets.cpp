@@ -1,0 +1,180 @@
+/* Areas, menus and widgets. */
+#include "ui/toolkit/gui_private.hpp"
+
+const ImGuiWindowFlags ang_gui_fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                       ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+void ang_gui_place(ang_rect rect) {
+    ImGui::SetNextWindowPos(ImVec2((float)rect.x, (float)rect.y));
+    ImGui::SetNextWindowSize(ImVec2((float)rect.width, (float)rect.height));
+}
+
+void ang_gui_area_begin(ang_gui *, const char *name, ang_rect rect, bool solid) {
+    ang_gui_place(rect);
+    ImGuiWindowFlags flags =
+        (ang_gui_fixed & ~ImGuiWindowFlags_NoScrollbar) | (solid ? 0 : ImGuiWindowFlags_NoBackground);
+    ImGui::Begin(name, nullptr, flags);
+}
+
+void ang_gui_area_end(ang_gui *) { ImGui::End(); }
+
+void ang_gui_message_begin(ang_gui *gui, const char *name) {
+    ImGui::SetNextWindowPos(ImVec2((float)gui->input.width / 2, (float)gui->input.height / 2), ImGuiCond_Always,
+                            ImVec2(0.5f, 0.5f));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2((float)ang_gui_px(gui, 24), (float)ang_gui_px(gui, 20)));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, (float)ang_gui_px(gui, 4));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ang_gui_grey(0.14f));
+    ImGui::Begin(name, nullptr,
+                 (ang_gui_fixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize);
+    /* Only for the message itself, not for tooltips in it. */
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(3);
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+}
+
+void ang_gui_message_end(ang_gui *) { ImGui::End(); }
+
+double ang_gui_menu_bar_begin(ang_gui *gui) {
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2((float)ang_gui_px(gui, 8), (float)ang_gui_px(gui, 6)));
+    ImGui::BeginMainMenuBar();
+    double height = (double)ImGui::GetWindowHeight();
+    return height;
+}
+void ang_gui_menu_bar_end(ang_gui *) {
+    ImGui::EndMainMenuBar();
+    ImGui::PopStyleVar();
+}
+bool ang_gui_menu_begin(ang_gui *, const char *label) { return ImGui::BeginMenu(label); }
+void ang_gui_menu_end(ang_gui *) { ImGui::EndMenu(); }
+void ang_gui_menu_separator(ang_gui *) { ImGui::Separator(); }
+bool ang_gui_menu_item(ang_gui *, const char *label, const char *shortcut, bool checked, bool enabled) {
+    return ImGui::MenuItem(label, shortcut, checked, enabled);
+}
+
+void ang_gui_text(ang_gui *, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    ImGui::TextV(format, args);
+    va_end(args);
+}
+void ang_gui_text_dim(ang_gui *, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    ImGui::TextDisabledV(format, args);
+    va_end(args);
+}
+void ang_gui_paragraph(ang_gui *, const char *text, double width) {
+    ImGui::PushTextWrapPos(width > 0 ? ImGui::GetCursorPosX() + (float)width : 0.0f);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+}
+void ang_gui_hint(ang_gui *, const char *text) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", text);
+    ImGui::SameLine();
+    ImGui::Dummy(ImVec2(0, ImGui::GetFrameHeight()));
+}
+void ang_gui_heading(ang_gui *gui, const char *text) {
+    ImGui::Dummy(ImVec2(0, (float)ang_gui_px(gui, 4)));
+    ImGui::PushFont(gui->small);
+    ImGui::TextDisabled("%s", text);
+    ImGui::PopFont();
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImVec2 end(ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x, at.y);
+    ImGui::GetWindowDrawList()->AddLine(at, end, ImGui::GetColorU32(ImGuiCol_Separator));
+    ImGui::Dummy(ImVec2(0, (float)ang_gui_px(gui, 2)));
+}
+void ang_gui_label(ang_gui *gui, const char *text) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(text);
+    ImGui::SameLine((float)ang_gui_px(gui, 96));
+}
+void ang_gui_same_line(ang_gui *) { ImGui::SameLine(); }
+void ang_gui_gap(ang_gui *, double height) { ImGui::Dummy(ImVec2(0, (float)height)); }
+
+static void next_width(double width) { ImGui::SetNextItemWidth(width > 0 ? (float)width : -1); }
+
+bool ang_gui_button(ang_gui *, const char *label, double width, bool enabled) {
+    ImGui::BeginDisabled(!enabled);
+    bool pressed = ImGui::Button(label, ImVec2((float)width, 0));
+    ImGui::EndDisabled();
+    return pressed;
+}
+bool ang_gui_checkbox(ang_gui *, const char *label, bool *value) { return ImGui::Checkbox(label, value); }
+bool ang_gui_selectable(ang_gui *, const char *label, bool selected) { return ImGui::Selectable(label, selected); }
+
+bool ang_gui_choice(ang_gui *, const char *name, const char *const *words, int count, int *chosen, double width) {
+    next_width(width);
+    bool known = *chosen >= 0 && *chosen < count;
+    bool changed = false;
+    if (!ImGui::BeginCombo(name, known ? words[*chosen] : "", ImGuiComboFlags_HeightLarge)) return false;
+    for (int i = 0; i < count; i++) {
+        if (ImGui::Selectable(words[i], i == *chosen) && i != *chosen) {
+            *chosen = i;
+            changed = true;
+        }
+        if (i == *chosen) ImGui::SetItemDefaultFocus();
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool ang_gui_number(ang_gui *gui, const char *name, double *value, double speed, double low, double high,
+                    const char *format, double width) {
+    next_width(width);
+    if (gui->input.modifiers & ANG_MOD_SHIFT) speed /= 10;
+    /* ImGui makes a drag with Shift ten times faster. */
+    ImGuiIO &io = ImGui::GetIO();
+    bool shift = io.KeyShift;
+    io.KeyShift = false;
+    bool changed = ImGui::DragScalar(name, ImGuiDataType_Double, value, (float)speed, &low, &high, format,
+                                     ImGuiSliderFlags_AlwaysClamp);
+    io.KeyShift = shift;
+    return changed;
+}
+
+bool ang_gui_number_field(ang_gui *, const char *name, double *value, const char *format, double width) {
+    next_width(width);
+    double typed = *value;
+    ImGui::InputDouble(name, &typed, 0, 0, format);
+    if (!ImGui::IsItemDeactivatedAfterEdit() || !std::isfinite(typed)) return false;
+    bool changed = typed < *value || typed > *value;
+    *value = typed;
+    return changed;
+}
+
+bool ang_gui_text_field(ang_gui *, const char *name, char *text, size_t size, double width) {
+    next_width(width);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    return ImGui::InputText(name, text, size, ImGuiInputTextFlags_EnterReturnsTrue);
+}
+
+bool ang_gui_colour(ang_gui *, const char *name, double colour[3]) {
+    float value[3] = {(float)colour[0], (float)colour[1], (float)colour[2]};
+    if (!ImGui::ColorEdit3(name, value,
+                           ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_NoTooltip))
+        return false;
+    for (int i = 0; i < 3; i++) colour[i] = std::fmin(std::fmax((double)value[i], 0.0), 1.0);
+    return true;
+}
+
+void ang_gui_progress(ang_gui *gui, double fraction, double width) {
+    ImGui::ProgressBar((float)fraction, ImVec2((float)width, (float)ang_gui_px(gui, 8)), "");
+}
+void ang_gui_tooltip(ang_gui *, const char *text) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+double ang_gui_room(const ang_gui *) { return (double)ImGui::GetContentRegionAvail().x; }
+
+bool ang_gui_table_begin(ang_gui *, const char *name, int columns) {
+    return ImGui::BeginTable(name, columns, ImGuiTableFlags_SizingFixedFit);
+}
+void ang_gui_table_next(ang_gui *) { ImGui::TableNextColumn(); }
+void ang_gui_table_end(ang_gui *) { ImGui::EndTable(); }
