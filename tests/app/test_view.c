@@ -1,197 +1,19 @@
-/* The viewer in a real window: a display without a screen (Xvfb), hands by xdotool, eyes by the state that the program
- * writes and by the pictures that it saves. */
+/* The viewer in a real window: the basics. */
 #include "tests/core/fixtures.h"
 
-#include "io/image/image_io.h"
-#include "io/json.h"
 #include "io/load.h"
 #include "io/preset.h"
-#include "tests/app/program.h"
-
-#include <cjson/cJSON.h>
-#include <fcntl.h>
-#include <signal.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <time.h>
-#include <unistd.h>
 
 #define FOLDER ANG_TEST_TMP "/view"
-#define STATE  FOLDER "/state.json"
-
-static pid_t server, viewer;
-static const char *skipped; /* why there is no window to be had */
-
-static void nap(int milliseconds) {
-    struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000L};
-    nanosleep(&time, NULL);
-}
-
-static bool installed(const char *program) {
-    char command[128];
-    snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1", program);
-    return system(command) == 0;
-}
-
-/* Xvfb on a display that is free, whose number becomes DISPLAY. */
-static bool start_server(void) {
-    int ends[2];
-    if (pipe(ends) != 0) return false;
-    server = fork();
-    if (server == 0) {
-        char number[16];
-        close(ends[0]);
-        int quiet = open("/dev/null", O_WRONLY);
-        dup2(quiet, 2);
-        snprintf(number, sizeof number, "%d", ends[1]);
-        execlp("Xvfb", "Xvfb", "-displayfd", number, "-screen", "0", "1280x720x24", "-noreset", (char *)NULL);
-        _exit(127);
-    }
-    close(ends[1]);
-    char text[16] = {0};
-    size_t used = 0;
-    while (used + 1 < sizeof text && !strchr(text, '\n') && read(ends[0], text + used, 1) == 1) used++;
-    close(ends[0]);
-    if (!strchr(text, '\n')) return false;
-    char display[24];
-    snprintf(display, sizeof display, ":%d", atoi(text));
-    setenv("DISPLAY", display, 1);
-    return true;
-}
-
-static void start_viewer(const char *input) {
-    viewer = fork();
-    if (viewer == 0) {
-        execl(ANG_PROGRAM, ANG_PROGRAM, input, "--write-state", STATE, "--pictures", FOLDER "/pictures", "--preset",
-              "cta-head", (char *)NULL);
-        _exit(127);
-    }
-}
-
-/* The state as last written; the caller deletes it. NULL: none yet. */
-static cJSON *read_state(void) {
-    ang_json json;
-    if (!ang_json_open(STATE, &json, NULL)) return NULL;
-    cJSON *root = json.root;
-    json.root = NULL;
-    ang_json_close(&json);
-    return root;
-}
-
-/* "axial.slice", "render.3" */
-static cJSON *field(cJSON *root, const char *path) {
-    char name[64];
-    while (root && *path) {
-        size_t length = strcspn(path, ".");
-        snprintf(name, sizeof name, "%.*s", (int)length, path);
-        root = cJSON_IsArray(root) ? cJSON_GetArrayItem(root, atoi(name)) : cJSON_GetObjectItem(root, name);
-        path += length + (path[length] == '.');
-    }
-    return root;
-}
-
-static double number_at(cJSON *root, const char *path) {
-    cJSON *item = field(root, path);
-    return cJSON_IsNumber(item) ? item->valuedouble : NAN;
-}
-
-static const char *text_at(cJSON *root, const char *path) {
-    const char *text = cJSON_GetStringValue(field(root, path));
-    return text ? text : "";
-}
-
-/* Waits until a number of the state is as expected; the state is then as well refined. */
-static void expect_number(const char *path, double expected, double tolerance) {
-    double value = NAN;
-    for (int i = 0; i < 200; i++) {
-        cJSON *state = read_state();
-        value = number_at(state, path);
-        bool refined = cJSON_IsTrue(field(state, "refined"));
-        cJSON_Delete(state);
-        if (fabs(value - expected) <= tolerance && refined) return;
-        nap(50);
-    }
-    fail_msg("%s is %.10g, not %.10g within %g", path, value, expected, tolerance);
-}
-
-static void expect_text(const char *path, const char *expected) {
-    char value[256] = "";
-    for (int i = 0; i < 200; i++) {
-        cJSON *state = read_state();
-        snprintf(value, sizeof value, "%s", text_at(state, path));
-        cJSON_Delete(state);
-        if (strcmp(value, expected) == 0) return;
-        nap(50);
-    }
-    fail_msg("%s is '%s', not '%s'", path, value, expected);
-}
-
-static void hands(const char *format, ...) {
-    char commands[512], line[600];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(commands, sizeof commands, format, args);
-    va_end(args);
-    snprintf(line, sizeof line, "xdotool %s", commands);
-    assert_int_equal(system(line), 0);
-}
-
-/* The middle of a pane. */
-static void middle(const char *pane, int *x, int *y) {
-    char path[64];
-    double rect[4];
-    cJSON *state = read_state();
-    for (int i = 0; i < 4; i++) {
-        snprintf(path, sizeof path, "panes.%s.%d", pane, i);
-        rect[i] = number_at(state, path);
-    }
-    cJSON_Delete(state);
-    *x = (int)(rect[0] + rect[2] / 2);
-    *y = (int)(rect[1] + rect[3] / 2);
-}
-
-static void go_to(const char *pane) {
-    int x, y;
-    middle(pane, &x, &y);
-    hands("mousemove %d %d", x, y);
-    expect_text("hovered", pane);
-}
-
-static void drag(int button, int dx, int dy) {
-    /* In pieces, as a hand does; at the end it rests. */
-    hands("mousedown %d mousemove_relative -- %d %d mousemove_relative -- %d %d mouseup %d", button, dx / 2, dy / 2,
-          dx - dx / 2, dy - dy / 2, button);
-}
+#include "tests/app/viewer_hands.h"
 
 static int opening(void **state) {
     (void)state;
-    if (system("rm -rf " FOLDER " && mkdir -p " FOLDER) != 0) return -1;
-    if (!installed("Xvfb") || !installed("xdotool"))
-        skipped = "Xvfb or xdotool is not installed (packages xvfb, xdotool)";
-#ifndef ANG_WITH_WINDOW
-    skipped = "this build has no window";
-#endif
+    if (open_display() != 0) return -1;
     if (skipped) return 0;
-    if (run("phantom -o " FOLDER "/phantom --dims 96x96x48 --quiet") != 0 || !start_server()) return -1;
-    start_viewer(FOLDER "/phantom");
+    if (run("phantom -o " FOLDER "/phantom --dims 96x96x48 --quiet") != 0) return -1;
+    start_viewer(FOLDER "/phantom --preset cta-head");
     return 0;
-}
-
-static int closing(void **state) {
-    (void)state;
-    pid_t children[] = {viewer, server};
-    for (int i = 0; i < 2; i++)
-        if (children[i] > 0) {
-            kill(children[i], SIGTERM); /* the server removes its lock */
-            waitpid(children[i], NULL, 0);
-        }
-    return 0;
-}
-
-static void need_window(void) {
-    if (!skipped) return;
-    print_message("skipped: %s\n", skipped);
-    skip();
 }
 
 static void it_opens_what_it_is_given(void **state) {
@@ -266,7 +88,7 @@ static void a_saved_slice_is_the_volumes(void **state) {
     ang_volume *volume = ang_load(FOLDER "/phantom", &(ang_load_options){0}, &report, NULL, NULL);
     ang_image picture;
     assert_non_null(volume);
-    assert_true(ang_picture_read(FOLDER "/pictures/angioscope-axial-0001.png", &picture, NULL));
+    assert_true(ang_picture_read(PICTURES "/angioscope-axial-0001.png", &picture, NULL));
     ang_mat4 to_index;
     assert_true(ang_mat4_inverse(&volume->affine, &to_index));
     double pixel = 95 * ang_volume_spacing(volume, 1) / picture.height;
@@ -324,69 +146,25 @@ static void the_volume_turns_with_the_hand(void **state) {
     drag(2, 21, 10);
 }
 
-/* The largest difference of two pictures, in levels. */
-static double difference(const char *a, const char *b) {
-    ang_image left, right;
-    ang_error err = {0};
-    if (!ang_picture_read(a, &left, &err) || !ang_picture_read(b, &right, &err)) fail_msg("%s", err.message);
-    assert_true(left.width == right.width && left.height == right.height);
-    double most = 0, sum = 0;
-    for (int i = 0; i < 4 * left.width * left.height; i++) {
-        most = fmax(most, 255 * fabs((double)left.rgba[i] - (double)right.rgba[i]));
-        if (i % 4 < 3) sum += (double)right.rgba[i];
-    }
-    assert_true(sum > 100); /* the picture shows something */
-    ang_image_clear(&left);
-    ang_image_clear(&right);
-    return most;
-}
-
-static void write_file(const char *path, const char *text) {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
-
-/* Camera, preset and size from the state, a headless picture of them, and the two beside one another. */
-static void compare_with_headless(const char *saved) {
-    char arguments[2048], path[256];
-    cJSON *shown = read_state();
-    char *preset = cJSON_Print(field(shown, "preset"));
-    write_file(FOLDER "/shown.json", preset);
-    int used = snprintf(arguments, sizeof arguments,
-                        "render " FOLDER "/phantom -q -o " FOLDER "/headless.png --preset " FOLDER "/shown.json");
-    const cJSON *option;
-    cJSON_ArrayForEach(option, field(shown, "render")) used +=
-        snprintf(arguments + used, sizeof arguments - (size_t)used, " %s", option->valuestring);
-    free(preset);
-    cJSON_Delete(shown);
-    assert_int_equal(run(arguments), 0);
-    snprintf(path, sizeof path, FOLDER "/pictures/%s", saved);
-    double levels = difference(path, FOLDER "/headless.png");
-    print_message("%s: %.3g levels from the headless picture\n", saved, levels);
-    assert_true(levels <= 1.001);
-}
-
 static void a_saved_volume_is_the_headless_picture(void **state) {
     (void)state;
     need_window();
     go_to("volume");
     hands("key ctrl+s");
     expect_text("saved", "angioscope-volume-0001.png");
-    compare_with_headless("angioscope-volume-0001.png");
+    compare_with_headless("angioscope-volume-0001.png", FOLDER "/phantom");
     /* A surface in parallel projection, turned; then the greatest values, through the slices' window. */
     hands("key alt+a key o key 4");
     expect_text("preset.name", "ct-bone-iso");
     drag(1, -33, 21);
     hands("key ctrl+s");
     expect_text("saved", "angioscope-volume-0002.png");
-    compare_with_headless("angioscope-volume-0002.png");
+    compare_with_headless("angioscope-volume-0002.png", FOLDER "/phantom");
     hands("key 7");
     expect_text("preset.name", "ct-mip");
     hands("key ctrl+s");
     expect_text("saved", "angioscope-volume-0003.png");
-    compare_with_headless("angioscope-volume-0003.png");
+    compare_with_headless("angioscope-volume-0003.png", FOLDER "/phantom");
     hands("key o key 1");
     expect_text("preset.name", "cta-head");
 }
@@ -480,8 +258,8 @@ static void a_transfer_function_is_edited(void **state) {
     expect_number("preset.points.5.hu", 350 + 3 * per_pixel, 1e-6);
     hands("key ctrl+p");
     expect_text("saved", "angioscope-preset-0001.json");
-    assert_int_equal(run("presets show " FOLDER "/pictures/angioscope-preset-0001.json"), 0);
-    ang_preset *saved = ang_preset_load(FOLDER "/pictures/angioscope-preset-0001.json", NULL);
+    assert_int_equal(run("presets show " PICTURES "/angioscope-preset-0001.json"), 0);
+    ang_preset *saved = ang_preset_load(PICTURES "/angioscope-preset-0001.json", NULL);
     assert_non_null(saved);
     assert_close(saved->transfer->points[5].hu, 350 + 3 * per_pixel, 1e-9);
     ang_preset_free(saved);
@@ -505,20 +283,6 @@ static void panes_grow_and_shrink(void **state) {
     expect_text("maximised", "");
 }
 
-/* Seconds of processor time of the viewer. */
-static double processor_time(void) {
-    char path[64], line[1024];
-    unsigned long user, system;
-    snprintf(path, sizeof path, "/proc/%d/stat", (int)viewer);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    assert_non_null(fgets(line, sizeof line, file));
-    fclose(file);
-    assert_int_equal(
-        sscanf(strrchr(line, ')') + 2, "%*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu", &user, &system), 2);
-    return (double)(user + system) / (double)sysconf(_SC_CLK_TCK);
-}
-
 static void at_rest_it_sleeps(void **state) {
     (void)state;
     need_window();
@@ -527,19 +291,6 @@ static void at_rest_it_sleeps(void **state) {
     double before = processor_time();
     nap(2000);
     assert_true(processor_time() - before <= 0.02); /* two ticks: 1 % */
-}
-
-static int wait_for_end(void) {
-    int status = 0;
-    for (int i = 0; i < 100; i++) {
-        if (waitpid(viewer, &status, WNOHANG) == viewer) {
-            viewer = 0;
-            return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        }
-        nap(50);
-    }
-    fail_msg("the viewer does not end");
-    return -1;
 }
 
 static void it_ends_well(void **state) {
@@ -574,5 +325,5 @@ int main(void) {
         cmocka_unit_test(it_ends_well),
         cmocka_unit_test(what_cannot_be_read_is_said_in_the_window),
     };
-    return cmocka_run_group_tests(tests, opening, closing);
+    return cmocka_run_group_tests(tests, opening, close_display);
 }

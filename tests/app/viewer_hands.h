@@ -1,0 +1,278 @@
+/* The viewer in a real window: a display without a screen (Xvfb), hands by xdotool, eyes by the state that the program
+ * writes and by the pictures that it saves. Define FOLDER, where the test's files go, before this; cmocka.h and what it
+ * needs must be included first. */
+#ifndef ANG_TESTS_APP_VIEWER_HANDS_H
+#define ANG_TESTS_APP_VIEWER_HANDS_H
+
+#include "io/image/image_io.h"
+#include "io/json.h"
+#include "tests/app/program.h"
+
+#include <cjson/cJSON.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define STATE    FOLDER "/state.json" /* what --write-state writes */
+#define PICTURES FOLDER "/pictures"
+
+static pid_t server, viewer;
+static const char *skipped; /* why there is no window to be had */
+
+static inline void nap(int milliseconds) {
+    struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000L};
+    nanosleep(&time, NULL);
+}
+
+static inline bool installed(const char *program) {
+    char command[128];
+    snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1", program);
+    return system(command) == 0;
+}
+
+/* Xvfb on a display that is free, whose number becomes DISPLAY. */
+static inline bool start_server(void) {
+    int ends[2];
+    if (pipe(ends) != 0) return false;
+    server = fork();
+    if (server == 0) {
+        char number[16];
+        close(ends[0]);
+        int quiet = open("/dev/null", O_WRONLY);
+        dup2(quiet, 2);
+        snprintf(number, sizeof number, "%d", ends[1]);
+        execlp("Xvfb", "Xvfb", "-displayfd", number, "-screen", "0", "1280x720x24", "-noreset", (char *)NULL);
+        _exit(127);
+    }
+    close(ends[1]);
+    char text[16] = {0};
+    size_t used = 0;
+    while (used + 1 < sizeof text && !strchr(text, '\n') && read(ends[0], text + used, 1) == 1) used++;
+    close(ends[0]);
+    if (!strchr(text, '\n')) return false;
+    char display[24];
+    snprintf(display, sizeof display, ":%d", atoi(text));
+    setenv("DISPLAY", display, 1);
+    return true;
+}
+
+/* Opens the window; arguments for the shell. What it shows is written to STATE, what it saves goes to PICTURES. */
+static inline void start_viewer(const char *arguments) {
+    char command[2048];
+    snprintf(command, sizeof command, "exec " ANG_PROGRAM " view --write-state " STATE " --pictures " PICTURES " %s",
+             arguments);
+    unlink(STATE); /* what an earlier one showed */
+    viewer = fork();
+    if (viewer == 0) {
+        execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+        _exit(127);
+    }
+}
+
+/* The state as last written; the caller deletes it. NULL: none yet. */
+static inline cJSON *read_state(void) {
+    ang_json json;
+    if (!ang_json_open(STATE, &json, NULL)) return NULL;
+    cJSON *root = json.root;
+    json.root = NULL;
+    ang_json_close(&json);
+    return root;
+}
+
+/* "axial.slice", "render.3" */
+static inline cJSON *field(cJSON *root, const char *path) {
+    char name[64];
+    while (root && *path) {
+        size_t length = strcspn(path, ".");
+        snprintf(name, sizeof name, "%.*s", (int)length, path);
+        root = cJSON_IsArray(root) ? cJSON_GetArrayItem(root, atoi(name)) : cJSON_GetObjectItem(root, name);
+        path += length + (path[length] == '.');
+    }
+    return root;
+}
+
+/* NaN, or "", where there is none. */
+static inline double number_at(cJSON *root, const char *path) {
+    cJSON *item = field(root, path);
+    return cJSON_IsNumber(item) ? item->valuedouble : NAN;
+}
+
+static inline const char *text_at(cJSON *root, const char *path) {
+    const char *text = cJSON_GetStringValue(field(root, path));
+    return text ? text : "";
+}
+
+/* Waits until a number of the state is as expected; the state is then as well refined. */
+static inline void expect_number(const char *path, double expected, double tolerance) {
+    double value = NAN;
+    for (int i = 0; i < 200; i++) {
+        cJSON *state = read_state();
+        value = number_at(state, path);
+        bool refined = cJSON_IsTrue(field(state, "refined"));
+        cJSON_Delete(state);
+        if (fabs(value - expected) <= tolerance && refined) return;
+        nap(50);
+    }
+    fail_msg("%s is %.10g, not %.10g within %g", path, value, expected, tolerance);
+}
+
+/* The same for a text, refined or not. */
+static inline void expect_text(const char *path, const char *expected) {
+    char value[256] = "";
+    for (int i = 0; i < 200; i++) {
+        cJSON *state = read_state();
+        snprintf(value, sizeof value, "%s", text_at(state, path));
+        cJSON_Delete(state);
+        if (strcmp(value, expected) == 0) return;
+        nap(50);
+    }
+    fail_msg("%s is '%s', not '%s'", path, value, expected);
+}
+
+/* Commands for xdotool. */
+static inline void hands(const char *format, ...) {
+    char commands[512], line[600];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(commands, sizeof commands, format, args);
+    va_end(args);
+    snprintf(line, sizeof line, "xdotool %s", commands);
+    assert_int_equal(system(line), 0);
+}
+
+/* The middle of a pane. */
+static inline void middle(const char *pane, int *x, int *y) {
+    char path[64];
+    double rect[4];
+    cJSON *state = read_state();
+    for (int i = 0; i < 4; i++) {
+        snprintf(path, sizeof path, "panes.%s.%d", pane, i);
+        rect[i] = number_at(state, path);
+    }
+    cJSON_Delete(state);
+    *x = (int)(rect[0] + rect[2] / 2);
+    *y = (int)(rect[1] + rect[3] / 2);
+}
+
+/* The pointer to the middle of a pane. */
+static inline void go_to(const char *pane) {
+    int x, y;
+    middle(pane, &x, &y);
+    hands("mousemove %d %d", x, y);
+    expect_text("hovered", pane);
+}
+
+static inline void drag(int button, int dx, int dy) {
+    /* In pieces, as a hand does; at the end it rests. */
+    hands("mousedown %d mousemove_relative -- %d %d mousemove_relative -- %d %d mouseup %d", button, dx / 2, dy / 2,
+          dx - dx / 2, dy - dy / 2, button);
+}
+
+/* An empty FOLDER and a display; `skipped` where there can be none. For a group's setup: 0 or -1. */
+static inline int open_display(void) {
+    if (system("rm -rf " FOLDER " && mkdir -p " FOLDER) != 0) return -1;
+    if (!installed("Xvfb") || !installed("xdotool"))
+        skipped = "Xvfb or xdotool is not installed (packages xvfb, xdotool)";
+#ifndef ANG_WITH_WINDOW
+    skipped = "this build has no window";
+#endif
+    return skipped || start_server() ? 0 : -1;
+}
+
+/* For a group's teardown: ends the viewer, where it still runs, and the display. */
+static inline int close_display(void **state) {
+    (void)state;
+    pid_t children[] = {viewer, server};
+    for (int i = 0; i < 2; i++)
+        if (children[i] > 0) {
+            kill(children[i], SIGTERM); /* the server removes its lock */
+            waitpid(children[i], NULL, 0);
+        }
+    return 0;
+}
+
+/* Skips the test where there is no window to be had. */
+static inline void need_window(void) {
+    if (!skipped) return;
+    print_message("skipped: %s\n", skipped);
+    skip();
+}
+
+/* The largest difference of two pictures, in levels. */
+static inline double difference(const char *a, const char *b) {
+    ang_image left, right;
+    ang_error err = {0};
+    if (!ang_picture_read(a, &left, &err) || !ang_picture_read(b, &right, &err)) fail_msg("%s", err.message);
+    assert_true(left.width == right.width && left.height == right.height);
+    double most = 0, sum = 0;
+    for (int i = 0; i < 4 * left.width * left.height; i++) {
+        most = fmax(most, 255 * fabs((double)left.rgba[i] - (double)right.rgba[i]));
+        if (i % 4 < 3) sum += (double)right.rgba[i];
+    }
+    assert_true(sum > 100); /* the picture shows something */
+    ang_image_clear(&left);
+    ang_image_clear(&right);
+    return most;
+}
+
+static inline void write_file(const char *path, const char *text) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+/* Camera, preset and size from the state, a headless picture of them, and the two beside one another; `saved` is a
+ * name in PICTURES. */
+static inline void compare_with_headless(const char *saved, const char *input) {
+    char arguments[2048], path[256];
+    cJSON *shown = read_state();
+    char *preset = cJSON_Print(field(shown, "preset"));
+    write_file(FOLDER "/shown.json", preset);
+    int used = snprintf(arguments, sizeof arguments,
+                        "render %s -q -o " FOLDER "/headless.png --preset " FOLDER "/shown.json", input);
+    const cJSON *option;
+    cJSON_ArrayForEach(option, field(shown, "render")) used +=
+        snprintf(arguments + used, sizeof arguments - (size_t)used, " %s", option->valuestring);
+    free(preset);
+    cJSON_Delete(shown);
+    assert_int_equal(run(arguments), 0);
+    snprintf(path, sizeof path, PICTURES "/%s", saved);
+    double levels = difference(path, FOLDER "/headless.png");
+    print_message("%s: %.3g levels from the headless picture\n", saved, levels);
+    assert_true(levels <= 1.001);
+}
+
+/* Seconds of processor time of the viewer. */
+static inline double processor_time(void) {
+    char path[64], line[1024];
+    unsigned long user, system;
+    snprintf(path, sizeof path, "/proc/%d/stat", (int)viewer);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    fclose(file);
+    assert_int_equal(
+        sscanf(strrchr(line, ')') + 2, "%*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu", &user, &system), 2);
+    return (double)(user + system) / (double)sysconf(_SC_CLK_TCK);
+}
+
+/* The exit code of the viewer, which was told to end; the next one may be started. */
+static inline int wait_for_end(void) {
+    int status = 0;
+    for (int i = 0; i < 100; i++) {
+        if (waitpid(viewer, &status, WNOHANG) == viewer) {
+            viewer = 0;
+            return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        }
+        nap(50);
+    }
+    fail_msg("the viewer does not end");
+    return -1;
+}
+
+#endif
