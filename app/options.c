@@ -63,6 +63,13 @@ static const option_spec table[] = {
     TEXT_OPTION("size", DRAWS, size, "WxH", "512x512", "picture size in pixels"),
     TEXT_OPTION("size", ANG_VERB_VIEW, size, "WxH", NULL, "window size in pixels; default: as suits the screen"),
     TEXT_OPTION("pictures", ANG_VERB_VIEW, pictures, "DIR", ".", "folder that saved pictures and presets go to"),
+    TEXT_OPTION(
+        "state", ANG_VERB_RENDER, state, "FILE", NULL,
+        "draw what a saved state of the viewer shows in 3D, or a picture that was written by this program (.png, "
+        ".exr) again; what other options say goes first; PATH may be left out where the state names its data"),
+    TEXT_OPTION("state", ANG_VERB_VIEW, state, "FILE", NULL,
+                "begin with a saved state, or with what a picture of this program shows; its data need not be named "
+                "unless they have moved"),
     TEXT_OPTION("write-state", ANG_VERB_VIEW, write_state, "FILE", NULL,
                 "write what is shown as JSON to this file whenever it has changed"),
     TEXT_OPTION(
@@ -169,6 +176,7 @@ static const option_spec table[] = {
     FLAG_OPTION("help", 'h', ALL, help, "print this help"),
 };
 enum { table_length = sizeof table / sizeof *table };
+_Static_assert((int)table_length <= (int)ANG_MOST_OPTIONS, "ang_options.given is too short");
 
 static bool is_choice(const char *words, const char *word) {
     size_t length = strlen(word);
@@ -250,10 +258,20 @@ bool ang_options_parse(ang_verb verb, int argc, char **argv, ang_options *option
         for (int i = 0; i < table_length && code < 256; i++)
             if (table[i].letter == code && (table[i].verbs & verb)) index = i;
         if (!store(&table[index], optarg, options, err)) return false;
+        options->given[index] = true;
     }
     options->arguments = (const char **)argv + optind;
     options->argument_count = argc - optind;
     return true;
+}
+
+bool ang_options_offer(ang_verb verb, ang_options *options, const char *name, const char *text, ang_error *err) {
+    for (int i = 0; i < table_length; i++) {
+        if (!(table[i].verbs & verb) || strcmp(table[i].name, name) != 0) continue;
+        if (table[i].type == FLAG && text[0]) return ang_fail(err, ANG_USAGE, "--%s takes no value", name);
+        return options->given[i] || store(&table[i], text, options, err);
+    }
+    return ang_fail(err, ANG_USAGE, "there is no option --%s", name);
 }
 
 static void value_text(const option_spec *spec, const ang_options *options, char *text, size_t size) {

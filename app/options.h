@@ -19,12 +19,14 @@ typedef enum ang_verb {
     ANG_VERB_VIEW = 128,
 } ang_verb;
 
+enum { ANG_MOST_OPTIONS = 128 };
+
 /* The values, with the table's defaults where not given. Strings are borrowed from argv or from the table. */
 typedef struct ang_options {
     const char *output;
     const char *series, *preset, *method, *mode, *shading, *size, *view, *pan, *projection, *clip, *background;
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
-        *skipping, *cut_plane, *measure, *force, *write_state, *pictures, *classification;
+        *skipping, *cut_plane, *measure, *force, *state, *write_state, *pictures, *classification;
     const char *cases;
     double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold, time_limit, max_error,
         max_time; /* NaN where not given and without default */
@@ -33,11 +35,16 @@ typedef struct ang_options {
         annotate, keep_phi, quiet, verbose, help, json_flag;
     const char **arguments; /* what is not an option, NULL at the end */
     int argument_count;
+    bool given[ANG_MOST_OPTIONS]; /* on the command line, in the order of the table */
 } ang_options;
 
 /* Reads argv[first...] for one verb. Reorders argv as getopt does. False with ANG_USAGE naming the option. `options->
  * arguments` points into argv. */
 bool ang_options_parse(ang_verb verb, int argc, char **argv, ang_options *options, ang_error *err);
+
+/* Gives an option of a verb, called `name`, the value `text`, "" for a flag, unless the command line gave it one.
+ * Borrows `text`. False with ANG_USAGE where there is no such option or it cannot have that value. */
+bool ang_options_offer(ang_verb verb, ang_options *options, const char *name, const char *text, ang_error *err);
 
 /* Calls `take` with every option of a verb and its value as text, "" where it is not given: all that was asked for, for
  * those who must know whether it is what was asked for before. */

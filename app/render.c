@@ -1,5 +1,6 @@
 /* angioscope render: a volume becomes one or more pictures. */
 #include "app/picture.h"
+#include "app/picture_state.h"
 #include "app/render_json.h"
 #include "app/verbs.h"
 #include "core/base/clock.h"
@@ -22,11 +23,13 @@ static const double coarse_step = 2;
 
 /* All that one call holds, so that it can be let go of in one place. */
 typedef struct session {
-    const ang_options *options;
+    ang_stated stated;
+    const ang_options *options; /* with what the state says */
     ang_app_progress *progress;
     ang_volume *volume;
     ang_load_report report;
     ang_picture picture;
+    ang_view view; /* of the frame that is being drawn */
     ang_gl *gl;
     const ang_method *method;
     ang_renderer *renderer;
@@ -240,9 +243,9 @@ static bool show_counts(session *run, const ang_frame_stats *stats, ang_error *e
 }
 
 static void turn_camera(session *run, double degrees) {
-    ang_view view = run->picture.view;
-    view.azimuth_deg += degrees;
-    run->picture.scene.camera = ang_camera_for(run->volume, &view);
+    run->view = run->picture.view;
+    run->view.azimuth_deg += degrees;
+    run->picture.scene.camera = ang_camera_for(run->volume, &run->view);
 }
 
 /* OUT.png becomes OUT-0007.png where several pictures are made. */
@@ -281,7 +284,12 @@ static bool write_picture(session *run, const char *path, const ang_error_estima
             ang_annotation_add_error(&annotation, estimate->levels, estimate->rms, milliseconds);
         if (!ang_image_annotate(&run->image, &annotation, &run->summary.warnings, err)) return false;
     }
-    return ang_image_write(path, &run->image, run->picture.scene.background, err);
+    ang_picture shown = run->picture;
+    shown.view = run->view;
+    char *state = ang_picture_state_print(run->options, &shown, run->method, &run->report, err);
+    bool written = state && ang_image_write_stated(path, &run->image, run->picture.scene.background, state, err);
+    free(state);
+    return written;
 }
 
 /* Room for the counts of --mode lookups; NULL where they are not wanted, or with an error. */
@@ -372,9 +380,13 @@ static bool check_outputs(const ang_options *options, ang_error *err) {
     const char *json = options->json && strcmp(options->json, "-") != 0 ? options->json : NULL;
     if (!ang_image_writable(options->output, err)) return false;
     if (json && !ang_file_replaceable(json, err)) return false;
+    if (json && options->state && ang_file_same(options->state, json))
+        return ang_fail(err, ANG_USAGE, "--json %s: is read as state; give the output another name", json);
     for (int frame = 0; frame < options->frames; frame++) {
         char path[4096];
         frame_path(options->output, frame, options->frames, path, sizeof path);
+        if (options->state && ang_file_same(options->state, path))
+            return ang_fail(err, ANG_USAGE, "-o %s: is read as state; give the picture another name", path);
         if (json && ang_file_same(path, json))
             return ang_fail(err, ANG_USAGE, "--json %s: is the picture too (-o); give one of them another name", json);
         if (ang_load_reads(options->arguments[0], path))
@@ -391,9 +403,14 @@ static bool check_outputs(const ang_options *options, ang_error *err) {
 static bool run_all(session *run, ang_error *err) {
     const ang_options *options = run->options;
     if (!check_outputs(options, err)) return false;
+    if (!options->preset) {
+        run->picture.preset = run->stated.state.preset;
+        run->stated.state.preset = NULL;
+    }
     if (!ang_picture_open(options, run->progress, &run->volume, &run->report, &run->picture, &run->summary.load_ms,
                           err))
         return false;
+    ang_state_matches(&run->stated.state, &run->report, &run->summary.warnings);
     if (!open_renderer(run, err) || !render_all(run, err) || !time_frames(run, err) || !check_budget(run, err))
         return false;
     if (!options->json) return true;
@@ -402,7 +419,6 @@ static bool run_all(session *run, ang_error *err) {
 }
 
 int ang_app_render(const ang_options *options, ang_error *err) {
-    if (!ang_app_arguments(options, 1, "render: give one file or folder to read", err)) return ANG_USAGE;
     if (!options->output) {
         ang_fail(err, ANG_USAGE, "render: give a picture to write with -o OUT.png");
         return ANG_USAGE;
@@ -411,8 +427,11 @@ int ang_app_render(const ang_options *options, ang_error *err) {
         fprintf(stderr, "note: without --orbit all %d pictures are the same\n", options->frames);
     if (options->orbit != 0 && options->frames == 1 && options->repeat == 0 && !options->quiet)
         fprintf(stderr, "note: --orbit turns nothing without --frames or --repeat\n");
-    session run = {.options = options, .progress = ang_app_progress_start(options->quiet)};
-    bool done = run_all(&run, err);
+    session run = {.progress = ang_app_progress_start(options->quiet)};
+    bool done = ang_stated_open(ANG_VERB_RENDER, options, &run.stated, err);
+    run.options = &run.stated.options;
+    done =
+        done && ang_app_arguments(run.options, 1, "render: give one file or folder to read", err) && run_all(&run, err);
     ang_app_progress_end(run.progress);
     if (!options->quiet) {
         ang_app_say(&run.report.warnings, "warning: ", done ? NULL : err);
@@ -430,5 +449,6 @@ int ang_app_render(const ang_options *options, ang_error *err) {
     ang_notes_clear(&run.summary.warnings);
     ang_load_report_clear(&run.report);
     ang_volume_free(run.volume);
+    ang_stated_clear(&run.stated);
     return done ? ANG_OK : (int)err->code;
 }

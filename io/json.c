@@ -138,23 +138,39 @@ static const char *find_element(const char *p, long index) {
     return NULL;
 }
 
-int ang_json_line(const char *text, const char *path) {
+/* The value at `path`, or NULL; `place` receives where the deepest part of the path that exists begins. */
+static const char *find(const char *text, const char *path, const char **place) {
     const char *byte_order_mark = "\xEF\xBB\xBF";
-    const char *p = skip_space(strncmp(text, byte_order_mark, 3) == 0 ? text + 3 : text), *place = p;
+    const char *p = skip_space(strncmp(text, byte_order_mark, 3) == 0 ? text + 3 : text);
+    *place = p;
     while (p && *path) {
         if (*path == '[') {
             char *end;
             p = find_element(p, strtol(path + 1, &end, 10));
-            if (p) place = p;
+            if (p) *place = p;
             path = *end == ']' ? end + 1 : end;
         } else {
             if (*path == '.') path++;
             size_t length = strcspn(path, ".[");
-            p = find_key(p, path, length, &place);
+            p = find_key(p, path, length, place);
             path += length;
         }
     }
+    return p;
+}
+
+int ang_json_line(const char *text, const char *path) {
+    const char *place;
+    find(text, path, &place);
     return line_at(text, place);
+}
+
+char *ang_json_part(const ang_json *json, const char *path) {
+    const char *place, *value = find(json->text, path, &place);
+    char *part = value ? strndup(json->text, (size_t)(skip_value(value) - json->text)) : NULL;
+    for (size_t i = 0; part && json->text + i < value; i++)
+        if (part[i] != '\n') part[i] = ' ';
+    return part;
 }
 
 bool ang_json_fail(const ang_json *json, const char *path, ang_error *err, const char *format, ...) {
@@ -249,4 +265,13 @@ void ang_json_add_number(cJSON *object, const char *name, double value) {
         cJSON_AddNumberToObject(object, name, value);
     else
         cJSON_AddNullToObject(object, name);
+}
+
+cJSON *ang_json_exact(double value) {
+    char text[40] = "null";
+    for (int digits = 15; digits <= 17 && isfinite(value); digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) break;
+    }
+    return cJSON_CreateRaw(text);
 }

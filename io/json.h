@@ -40,6 +40,13 @@ bool ang_json_number(const ang_json *json, const cJSON *item, const char *path, 
 
 /* Adds a number under `name`, or null where it is not finite, which JSON cannot say. */
 void ang_json_add_number(cJSON *object, const char *name, double value);
+/* The shortest decimal that reads back as the same double, null where it is not finite; cJSON's own printing stops an
+ * epsilon short. To be printed: in memory it is no number to cJSON. */
+cJSON *ang_json_exact(double value);
+
+/* The text of the value at `path` in valid JSON, with blanks and line ends before it so that its lines keep their
+ * numbers. NULL where there is none or memory is out. Free with free(). */
+char *ang_json_part(const ang_json *json, const char *path);
 
 /* The entry of NULL-terminated `known` most like `word` by edit distance; NULL where none is similar. */
 const char *ang_nearest_word(const char *word, const char *const *known);

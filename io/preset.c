@@ -251,18 +251,8 @@ ang_preset *ang_preset_parse(const char *file, const char *text, ang_error *err)
     return finish(&r, ang_json_parse(file, text, &r.json, err));
 }
 
-/* The shortest decimal that reads back as the same double; cJSON's own printing stops an epsilon short. */
-static cJSON *print_number(double value) {
-    char text[40];
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, value);
-        if (strtod(text, NULL) == value) break;
-    }
-    return cJSON_CreateRaw(text);
-}
-
 static void add_number(cJSON *object, const char *name, double value) {
-    cJSON_AddItemToObject(object, name, print_number(value));
+    cJSON_AddItemToObject(object, name, ang_json_exact(value));
 }
 
 static cJSON *print_points(const ang_transfer *transfer) {
@@ -271,7 +261,7 @@ static cJSON *print_points(const ang_transfer *transfer) {
         const ang_transfer_point *p = &transfer->points[i];
         cJSON *point = cJSON_CreateObject();
         cJSON *colour = cJSON_CreateArray();
-        for (int c = 0; c < 3; c++) cJSON_AddItemToArray(colour, print_number(p->colour[c]));
+        for (int c = 0; c < 3; c++) cJSON_AddItemToArray(colour, ang_json_exact(p->colour[c]));
         add_number(point, "hu", p->hu);
         cJSON_AddItemToObject(point, "colour", colour);
         add_number(point, transfer->by_extinction ? "extinction" : "opacity", p->opacity);
@@ -280,8 +270,12 @@ static cJSON *print_points(const ang_transfer *transfer) {
     return points;
 }
 
-char *ang_preset_print(const ang_preset *preset, ang_error *err) {
+cJSON *ang_preset_json(const ang_preset *preset, ang_error *err) {
     cJSON *root = cJSON_CreateObject();
+    if (!root) {
+        ang_fail(err, ANG_LIMIT, "no memory to print the preset %s", preset->name);
+        return NULL;
+    }
     cJSON_AddStringToObject(root, "name", preset->name);
     add_number(root, "version", 1);
     cJSON_AddStringToObject(root, "modality", preset->modality);
@@ -300,6 +294,12 @@ char *ang_preset_print(const ang_preset *preset, ang_error *err) {
     add_number(window, "width", preset->window_width);
     if (isfinite(preset->iso_hu)) add_number(root, "iso_hu", preset->iso_hu);
     cJSON_AddItemToObject(root, "points", print_points(preset->transfer));
+    return root;
+}
+
+char *ang_preset_print(const ang_preset *preset, ang_error *err) {
+    cJSON *root = ang_preset_json(preset, err);
+    if (!root) return NULL;
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     if (!text) ang_fail(err, ANG_LIMIT, "no memory to print the preset %s", preset->name);

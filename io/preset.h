@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/transfer/preset.h"
 
+#include <cjson/cJSON.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -41,6 +42,9 @@ typedef struct ang_preset_names {
 bool ang_preset_list(const char *const *folders, ang_preset_names *names, ang_error *err);
 void ang_preset_names_clear(ang_preset_names *names);
 
+/* The preset as an object of form version 1 to be printed (its numbers are ang_json_exact's). NULL with ANG_LIMIT. Free
+ * with cJSON_Delete. */
+cJSON *ang_preset_json(const ang_preset *preset, ang_error *err);
 /* The preset as JSON text of form version 1, every number exact. NULL with ANG_LIMIT. Free with free(). */
 char *ang_preset_print(const ang_preset *preset, ang_error *err);
 

@@ -16,13 +16,22 @@ typedef struct ang_bytes {
 /* OpenImageIO lies in a module of its own (angioscope-oiio.so), opened at the first call of a function below: with the
  * 250 libraries that it brings it would cost every start of the program 0.2 s and 110 MB. */
 
-/* `format` is "png", "tiff" or "openexr"; `pixels` are rows from the top of `channels` (3 or
- * 4) values a pixel, unsigned char where `is_float` is false, else float; 8-bit alpha is unassociated, float alpha
- * associated. False with ANG_OUTPUT, ANG_LIMIT. Thread safe. */
-bool ang_oiio_encode(const char *format, int width, int height, int channels, bool is_float, const void *pixels,
-                     ang_bytes *out, ang_error *err);
+/* Rows from the top of `channels` (3 or 4) values a pixel: unsigned char, alpha unassociated, where `is_float` is
+ * false, else float, alpha associated. */
+typedef struct ang_pixels {
+    int width, height, channels;
+    bool is_float;
+    const void *data;
+    const char *state; /* text to go with it as ANG_IMAGE_STATE, in png and openexr; NULL: none */
+} ang_pixels;
+
+/* `format` is "png", "tiff" or "openexr". False with ANG_OUTPUT, ANG_LIMIT. Thread safe. */
+bool ang_oiio_encode(const char *format, const ang_pixels *pixels, ang_bytes *out, ang_error *err);
 /* Reads `path` with the reader `format`; see ang_picture_read. */
 bool ang_oiio_read(const char *path, const char *format, ang_image *out, ang_error *err);
+/* A text that the file has under a name. NULL with ANG_INPUT, ANG_USAGE where there is none, ANG_LIMIT. Free with
+ * free(). */
+char *ang_oiio_text_of(const char *path, const char *format, const char *name, ang_error *err);
 
 /* Draws a line of text (UTF-8) into `mask` (width * height coverages in 0..1, rows from the top; the larger of what is
  * there and the text's coverage is kept), its baseline at (x, y) in pixels. `align` is -1, 0 or 1: x is the left end,
@@ -32,11 +41,11 @@ bool ang_oiio_text(float *mask, int width, int height, int x, int y, const char 
 /* The text's extent in pixels relative to its baseline: `top` is negative. False as above. */
 bool ang_oiio_text_size(const char *text, int size, const char *font, int *text_width, int *top, int *bottom);
 
-/* What the module exports under this name (ANG_OIIO_SYMBOL): the four functions above. */
+/* What the module exports under this name (ANG_OIIO_SYMBOL): the five functions above. */
 typedef struct ang_oiio_functions {
-    bool (*encode)(const char *format, int width, int height, int channels, bool is_float, const void *pixels,
-                   ang_bytes *out, ang_error *err);
+    bool (*encode)(const char *format, const ang_pixels *pixels, ang_bytes *out, ang_error *err);
     bool (*read)(const char *path, const char *format, ang_image *out, ang_error *err);
+    char *(*text_of)(const char *path, const char *format, const char *name, ang_error *err);
     bool (*text)(float *mask, int width, int height, int x, int y, const char *text, int size, const char *font,
                  int align);
     bool (*text_size)(const char *text, int size, const char *font, int *text_width, int *top, int *bottom);

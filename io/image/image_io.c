@@ -95,8 +95,8 @@ static bool quantise(const ang_image *image, const double background[4], unsigne
     return true;
 }
 
-static bool encode_float(format format, const ang_image *image, const double background[4], ang_bytes *bytes,
-                         ang_error *err) {
+static bool encode_float(format format, const ang_image *image, const double background[4], const char *state,
+                         ang_bytes *bytes, ang_error *err) {
     float *pixels = NULL;
     int channels = format == EXR ? 4 : 3;
     if (!flatten(image, background, channels, &pixels, err)) return false;
@@ -105,7 +105,8 @@ static bool encode_float(format format, const ang_image *image, const double bac
         good = ang_pfm_encode(image->width, image->height, pixels, bytes, err);
 #ifdef ANG_WITH_OIIO
     } else if (format == EXR) {
-        good = ang_oiio_encode(oiio_name(EXR), image->width, image->height, channels, true, pixels, bytes, err);
+        ang_pixels floats = {image->width, image->height, channels, true, pixels, state};
+        good = ang_oiio_encode(oiio_name(EXR), &floats, bytes, err);
 #endif
     } else { /* .ppm has no alpha: the premultiplied colour is what a black screen behind it shows */
         good = ang_ppm_encode(image->width, image->height, pixels, bytes, err);
@@ -114,27 +115,33 @@ static bool encode_float(format format, const ang_image *image, const double bac
     return good;
 }
 
-static bool encode_bytes(format format, const ang_image *image, const double background[4], ang_bytes *bytes,
-                         ang_error *err) {
+static bool encode_bytes(format format, const ang_image *image, const double background[4], const char *state,
+                         ang_bytes *bytes, ang_error *err) {
 #ifdef ANG_WITH_OIIO
     unsigned char *pixels = NULL;
     int channels = 0;
     if (!quantise(image, background, &pixels, &channels, err)) return false;
-    bool good = ang_oiio_encode(oiio_name(format), image->width, image->height, channels, false, pixels, bytes, err);
+    ang_pixels quantised = {image->width, image->height, channels, false, pixels, state};
+    bool good = ang_oiio_encode(oiio_name(format), &quantised, bytes, err);
     free(pixels);
     return good;
 #else
-    (void)quantise, (void)image, (void)background, (void)bytes;
+    (void)quantise, (void)image, (void)state, (void)background, (void)bytes;
     return refuse("picture", format, err);
 #endif
 }
 
 bool ang_image_write(const char *path, const ang_image *image, const double background[4], ang_error *err) {
+    return ang_image_write_stated(path, image, background, NULL, err);
+}
+
+bool ang_image_write_stated(const char *path, const ang_image *image, const double background[4], const char *state,
+                            ang_error *err) {
     format format = format_of(path);
     if (!refuse(path, format, err)) return false;
     ang_bytes bytes = {0};
-    bool whole = format == PNG || format == TIFF ? encode_bytes(format, image, background, &bytes, err)
-                                                 : encode_float(format, image, background, &bytes, err);
+    bool whole = format == PNG || format == TIFF ? encode_bytes(format, image, background, state, &bytes, err)
+                                                 : encode_float(format, image, background, state, &bytes, err);
     if (whole) whole = ang_file_replace(path, bytes.data, bytes.size, err);
     free(bytes.data);
     return whole;
@@ -144,7 +151,7 @@ bool ang_image_png(const ang_image *image, const double background[4], unsigned 
                    ang_error *err) {
     ang_bytes bytes = {0};
 #ifdef ANG_WITH_OIIO
-    bool whole = encode_bytes(PNG, image, background, &bytes, err);
+    bool whole = encode_bytes(PNG, image, background, NULL, &bytes, err);
 #else
     (void)image, (void)background;
     bool whole = ang_fail(err, ANG_USAGE, "this build has no OpenImageIO (ANG_WITH_OIIO), which makes PNG");
@@ -163,5 +170,19 @@ bool ang_picture_read(const char *path, ang_image *out, ang_error *err) {
     return ang_oiio_read(path, oiio_name(format), out, err);
 #else
     return false;
+#endif
+}
+
+char *ang_image_state(const char *path, ang_error *err) {
+    format format = format_of(path);
+    if (format != PNG && format != EXR) {
+        ang_fail(err, ANG_USAGE, "%s: carries no state; .png and .exr may", path);
+        return NULL;
+    }
+    if (!refuse(path, format, err)) return NULL;
+#ifdef ANG_WITH_OIIO
+    return ang_oiio_text_of(path, oiio_name(format), ANG_IMAGE_STATE, err);
+#else
+    return NULL;
 #endif
 }

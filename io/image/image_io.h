@@ -19,6 +19,14 @@
  * with ANG_OUTPUT naming the file and the system's reason, with ANG_USAGE for an extension that is not known or a
  * format that this build leaves out, with ANG_LIMIT where memory is out. Thread safe. */
 bool ang_image_write(const char *path, const ang_image *image, const double background[4], ang_error *err);
+/* The same with `state` (text; NULL: none), which repeats the picture, in the file where its format has room: in .png
+ * and .exr under the name ANG_IMAGE_STATE. */
+bool ang_image_write_stated(const char *path, const ang_image *image, const double background[4], const char *state,
+                            ang_error *err);
+#define ANG_IMAGE_STATE "angioscope_state"
+/* The state that a picture carries. NULL with ANG_USAGE where it carries none or is no .png or .exr, ANG_INPUT where it
+ * cannot be read, ANG_LIMIT. Free with free(). Thread safe. */
+char *ang_image_state(const char *path, ang_error *err);
 
 /* What ang_image_write rounds by at most, in levels of the premultiplied picture: 0.5 for formats of 8 bits, 1 where
  * colour and alpha are both rounded (unassociated alpha over a background that is not opaque), 0 for floats. */

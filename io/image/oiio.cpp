@@ -1,5 +1,6 @@
 extern "C" {
 #include "io/image/encode.h"
+#include "io/image/image_io.h"
 }
 
 #include <OpenImageIO/filesystem.h>
@@ -16,22 +17,22 @@ extern "C" {
 
 using namespace OIIO;
 
-static bool encode(const char *format, int width, int height, int channels, bool is_float, const void *pixels,
-                   Filesystem::IOProxy *proxy, ang_error *err) {
+static bool encode(const char *format, const ang_pixels &pixels, Filesystem::IOProxy *proxy, ang_error *err) {
     auto output = ImageOutput::create(format);
     if (!output) return ang_fail(err, ANG_OUTPUT, "OpenImageIO cannot write %s (%s)", format, geterror().c_str());
-    TypeDesc type = is_float ? TypeDesc::FLOAT : TypeDesc::UINT8;
-    ImageSpec spec(width, height, channels, type);
+    TypeDesc type = pixels.is_float ? TypeDesc::FLOAT : TypeDesc::UINT8;
+    ImageSpec spec(pixels.width, pixels.height, pixels.channels, type);
     spec.attribute("Software", "Angioscope");
     /* Where there is none the library adds the time of writing, which identifies. */
     spec.attribute("DateTime", "");
-    if (channels == 4 && !is_float) spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (pixels.state && std::strcmp(format, "tiff") != 0) spec.attribute(ANG_IMAGE_STATE, pixels.state);
+    if (pixels.channels == 4 && !pixels.is_float) spec.attribute("oiio:UnassociatedAlpha", 1);
     /* In TIFF a colour space becomes an EXIF folder, which the library, writing to memory, links in place of the
      * picture's own. */
     if (std::strcmp(format, "png") == 0) spec.attribute("oiio:ColorSpace", "sRGB");
     if (std::strcmp(format, "tiff") == 0) spec.attribute("compression", "zip");
     spec.attribute("oiio:ioproxy", TypeDesc::PTR, &proxy);
-    if (!output->open(std::string("picture.") + format, spec) || !output->write_image(type, pixels) ||
+    if (!output->open(std::string("picture.") + format, spec) || !output->write_image(type, pixels.data) ||
         !output->close()) {
         return ang_fail(err, ANG_OUTPUT, "the picture cannot be encoded as %s (%s)", format,
                         output->geterror().c_str());
@@ -39,12 +40,11 @@ static bool encode(const char *format, int width, int height, int channels, bool
     return true;
 }
 
-static bool encode_picture(const char *format, int width, int height, int channels, bool is_float, const void *pixels,
-                           ang_bytes *out, ang_error *err) {
+static bool encode_picture(const char *format, const ang_pixels *pixels, ang_bytes *out, ang_error *err) {
     try {
         std::vector<unsigned char> buffer;
         Filesystem::IOVecOutput proxy(buffer);
-        if (!encode(format, width, height, channels, is_float, pixels, &proxy, err)) return false;
+        if (!encode(format, *pixels, &proxy, err)) return false;
         out->data = static_cast<unsigned char *>(std::malloc(buffer.empty() ? 1 : buffer.size()));
         if (!out->data) return ang_fail(err, ANG_LIMIT, "no memory to encode the picture; use a smaller --size");
         std::memcpy(out->data, buffer.data(), buffer.size());
@@ -103,6 +103,29 @@ static bool read_picture(const char *path, const char *format, ang_image *out, a
     }
 }
 
+static char *text_of(const char *path, const char *format, const char *name, ang_error *err) {
+    try {
+        auto input = ImageInput::create(format);
+        ImageSpec spec;
+        if (!input || !input->open(path, spec)) {
+            std::string reason = input ? input->geterror() : geterror();
+            std::replace(reason.begin(), reason.end(), '\n', ' ');
+            ang_fail(err, ANG_INPUT, "%s: cannot be read as %s (%s)", path, format, reason.c_str());
+            return nullptr;
+        }
+        std::string text(spec.get_string_attribute(name));
+        char *copy = text.empty() ? nullptr : strdup(text.c_str());
+        if (text.empty()) ang_fail(err, ANG_USAGE, "%s: carries no text %s", path, name);
+        if (!text.empty() && !copy) ang_fail(err, ANG_LIMIT, "%s: no memory for its text", path);
+        return copy;
+    } catch (const std::bad_alloc &) {
+        ang_fail(err, ANG_LIMIT, "%s: no memory for the picture", path);
+    } catch (const std::exception &exception) {
+        ang_fail(err, ANG_INPUT, "%s: cannot be read (%s)", path, exception.what());
+    }
+    return nullptr;
+}
+
 static bool measure_text(const char *text, int size, const char *font, int *text_width, int *top, int *bottom) {
     try {
         ROI extent = ImageBufAlgo::text_size(text, size, font);
@@ -142,4 +165,4 @@ static bool draw_text(float *mask, int width, int height, int x, int y, const ch
 }
 
 extern "C" __attribute__((visibility("default")))
-const ang_oiio_functions ang_oiio_module = {encode_picture, read_picture, draw_text, measure_text};
+const ang_oiio_functions ang_oiio_module = {encode_picture, read_picture, text_of, draw_text, measure_text};

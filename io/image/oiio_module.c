@@ -34,15 +34,19 @@ static const ang_oiio_functions *module(ang_code code, ang_error *err) {
     return functions;
 }
 
-bool ang_oiio_encode(const char *format, int width, int height, int channels, bool is_float, const void *pixels,
-                     ang_bytes *out, ang_error *err) {
+bool ang_oiio_encode(const char *format, const ang_pixels *pixels, ang_bytes *out, ang_error *err) {
     const ang_oiio_functions *oiio = module(ANG_OUTPUT, err);
-    return oiio && oiio->encode(format, width, height, channels, is_float, pixels, out, err);
+    return oiio && oiio->encode(format, pixels, out, err);
 }
 
 bool ang_oiio_read(const char *path, const char *format, ang_image *out, ang_error *err) {
     const ang_oiio_functions *oiio = module(ANG_INPUT, err);
     return oiio && oiio->read(path, format, out, err);
+}
+
+char *ang_oiio_text_of(const char *path, const char *format, const char *name, ang_error *err) {
+    const ang_oiio_functions *oiio = module(ANG_INPUT, err);
+    return oiio ? oiio->text_of(path, format, name, err) : NULL;
 }
 
 bool ang_oiio_text(float *mask, int width, int height, int x, int y, const char *text, int size, const char *font,
