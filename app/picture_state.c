@@ -124,12 +124,9 @@ char *ang_picture_state_print(const ang_options *options, const ang_picture *pic
     ang_options_each(ANG_VERB_RENDER, options, take, &filling);
     filling.state.preset = &preset; /* both lent */
     filling.state.input_name = name;
-    cJSON *root = filling.done ? ang_state_json(&filling.state, ANG_VERSION, NULL, false, err) : NULL;
+    char *text = filling.done ? ang_state_print(&filling.state, ANG_VERSION, err) : NULL;
     filling.state.preset = NULL;
     filling.state.input_name = NULL;
     ang_state_clear(&filling.state);
-    char *text = root ? cJSON_PrintUnformatted(root) : NULL;
-    if (root && !text) ang_fail(err, ANG_LIMIT, "no memory for a state");
-    cJSON_Delete(root);
     return text;
 }

@@ -1,5 +1,6 @@
 #include "app/view_state.h"
 
+#include "app/picture_state.h"
 #include "io/json.h"
 #include "io/preset.h"
 #include "io/report.h"
@@ -13,34 +14,27 @@ static void add_numbers(cJSON *object, const char *name, const double *values, i
     cJSON_AddItemToObject(object, name, cJSON_CreateDoubleArray(values, count));
 }
 
-static void add_option(cJSON *list, const char *option, const char *value) {
-    cJSON_AddItemToArray(list, cJSON_CreateString(option));
-    cJSON_AddItemToArray(list, cJSON_CreateString(value));
-}
-
 /* Enough digits to come back as the same number. */
-static void add_option_numbers(cJSON *list, const char *option, const double *values, int count) {
-    char text[128];
+static bool add_option_numbers(ang_state *state, const char *option, const double *values, int count, ang_error *err) {
+    char text[160];
     int used = 0;
     for (int i = 0; i < count; i++)
         used += snprintf(text + used, sizeof text - (size_t)used, "%s%.17g", i > 0 ? "," : "", values[i]);
-    add_option(list, option, text);
+    return ang_state_add_option(state, option, text, err);
 }
 
-static cJSON *render_options(const ang_viewer_state *state) {
-    const ang_document *document = state->document;
-    const ang_view *view = &document->view;
-    cJSON *list = cJSON_CreateArray();
+static bool add_render_options(const ang_viewer_state *shown, ang_state *state, ang_error *err) {
+    const ang_view *view = &shown->document->view;
     char size[32];
-    snprintf(size, sizeof size, "%dx%d", state->size[0], state->size[1]);
-    add_option(list, "--size", size);
-    add_option_numbers(list, "--view", (double[]){view->azimuth_deg, view->elevation_deg, view->roll_deg}, 3);
-    add_option_numbers(list, "--pan", view->pan_mm, 2);
-    add_option_numbers(list, "--zoom", &view->zoom, 1);
-    add_option(list, "--projection", ang_projection_name(view->projection));
-    if (state->method) add_option(list, "--method", state->method);
-    if (document->mode == ANG_MODE_ISO) add_option_numbers(list, "--iso", &document->iso_hu, 1);
-    return list;
+    snprintf(size, sizeof size, "%dx%d", shown->size[0], shown->size[1]);
+    return (shown->size[0] < 1 || ang_state_add_option(state, "size", size, err)) &&
+           add_option_numbers(state, "view", (double[]){view->azimuth_deg, view->elevation_deg, view->roll_deg}, 3,
+                              err) &&
+           add_option_numbers(state, "pan", view->pan_mm, 2, err) &&
+           add_option_numbers(state, "zoom", &view->zoom, 1, err) &&
+           ang_state_add_option(state, "projection", ang_projection_name(view->projection), err) &&
+           add_option_numbers(state, "fov", &view->fov_deg, 1, err) &&
+           (!shown->method || ang_state_add_option(state, "method", shown->method, err));
 }
 
 char *ang_view_preset_print(const ang_document *document, ang_error *err) {
@@ -60,77 +54,171 @@ char *ang_view_preset_print(const ang_document *document, ang_error *err) {
     return text;
 }
 
-static cJSON *preset_of(const ang_document *document) {
-    char *text = ang_view_preset_print(document, NULL);
-    cJSON *object = text ? cJSON_Parse(text) : NULL;
+static const char *const pane_names[ANG_PANES] = {"axial", "coronal", "sagittal", "volume"};
+
+static ang_preset *preset_of(const ang_document *document, ang_error *err) {
+    char *text = ang_view_preset_print(document, err);
+    ang_preset *preset = text ? ang_preset_parse("what is shown", text, err) : NULL;
     free(text);
-    return object;
+    return preset;
 }
 
-static void add_slices(cJSON *root, const ang_viewer_state *state) {
-    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
-        cJSON *slice = cJSON_AddObjectToObject(root, ang_orientation_name((ang_orientation)i));
-        cJSON_AddNumberToObject(slice, "slice", state->slice[i].index + 1);
-        cJSON_AddNumberToObject(slice, "slices", state->slice[i].count);
-        ang_json_add_number(slice, "zoom", state->slice[i].zoom);
-        add_numbers(slice, "pan_mm", state->slice[i].pan_mm, 2);
+static bool copy_text(const char *text, char **copy, ang_error *err) {
+    if (!text) return true;
+    *copy = strdup(text);
+    return *copy || ang_fail(err, ANG_LIMIT, "no memory for a state");
+}
+
+static void copy_window(const ang_viewer_state *shown, ang_state *state) {
+    const ang_document *document = shown->document;
+    state->preset_changed = document->edited;
+    state->shift_hu = document->shift_hu;
+    state->stretch = document->stretch;
+    state->window_centre = document->window_centre;
+    state->window_width = document->window_width;
+    state->slab = document->slab;
+    state->slab_mm = document->slab_mm;
+    state->crosshair = shown->crosshair;
+    for (int i = 0; i < ANG_STATE_SLICES; i++) {
+        state->slice[i].zoom = shown->slice[i].zoom;
+        memcpy(state->slice[i].pan_mm, shown->slice[i].pan_mm, sizeof state->slice[i].pan_mm);
     }
+    snprintf(state->maximised, sizeof state->maximised, "%s",
+             shown->maximised >= 0 ? pane_names[shown->maximised] : "");
+    snprintf(state->tool, sizeof state->tool, "%s", shown->tool);
+    snprintf(state->method, sizeof state->method, "%s", shown->choice);
+    state->corner_text = shown->corner_text;
+    state->crosshair_lines = shown->crosshair_lines;
 }
 
-static void add_panes(cJSON *root, const ang_viewer_state *state) {
-    static const char *const names[ANG_PANES] = {"axial", "coronal", "sagittal", "volume"};
-    cJSON *panes = cJSON_AddObjectToObject(root, "panes");
-    for (int i = 0; i < ANG_PANES; i++) {
-        const ang_rect *rect = &state->pane[i];
-        add_numbers(panes, names[i], (double[]){rect->x, rect->y, rect->width, rect->height}, 4);
-    }
-    cJSON_AddStringToObject(root, "maximised", state->maximised >= 0 ? names[state->maximised] : "");
-    cJSON_AddStringToObject(root, "hovered", state->hovered < ANG_PANES ? names[state->hovered] : "");
-}
-
-static void add_study(cJSON *root, const ang_viewer_state *state) {
-    const ang_document *document = state->document;
+bool ang_view_state_of(const ang_viewer_state *shown, const ang_load_options *data_options, ang_state *state,
+                       ang_error *err) {
     char name[32];
-    ang_load_report_name(state->study->handle, name);
-    cJSON_AddStringToObject(root, "input", name);
-    add_numbers(root, "crosshair_mm", (double[]){state->crosshair.x, state->crosshair.y, state->crosshair.z}, 3);
-    add_slices(root, state);
-    cJSON *window = cJSON_AddObjectToObject(root, "window");
-    ang_json_add_number(window, "centre", document->window_centre);
-    ang_json_add_number(window, "width", document->window_width);
-    cJSON *slab = cJSON_AddObjectToObject(root, "slab");
-    ang_json_add_number(slab, "mm", document->slab_mm);
-    cJSON_AddStringToObject(slab, "mode", ang_slab_name(document->slab));
-    cJSON_AddItemToObject(root, "preset", preset_of(document));
-    cJSON *editor = cJSON_AddObjectToObject(root, "editor");
-    const ang_rect *plot = &state->editor;
-    add_numbers(editor, "plot", (double[]){plot->x, plot->y, plot->width, plot->height}, 4);
-    add_numbers(editor, "hu", (double[]){state->editor_low, state->editor_high}, 2);
-    cJSON_AddNumberToObject(editor, "point", state->point);
-    cJSON_AddBoolToObject(root, "preset_changed", document->edited);
-    ang_json_add_number(root, "shift_hu", document->shift_hu);
-    ang_json_add_number(root, "stretch", document->stretch);
-    ang_json_add_number(root, "azimuth_deg", document->view.azimuth_deg);
-    ang_json_add_number(root, "elevation_deg", document->view.elevation_deg);
-    cJSON_AddItemToObject(root, "render", render_options(state));
-    cJSON_AddBoolToObject(root, "refined", state->refined);
-    ang_json_add_number(root, "latency_ms", state->latency_ms);
-    cJSON_AddNumberToObject(root, "frames", state->frames);
-    ang_json_add_number(root, "frame_ms", state->frame_ms);
-    cJSON_AddBoolToObject(root, "can_undo", state->undo);
-    cJSON_AddBoolToObject(root, "can_redo", state->redo);
-    add_panes(root, state);
-    ang_json_add_number(root, "hovered_hu", state->hovered_hu);
-    cJSON_AddStringToObject(root, "tool", state->tool);
+    *state = ang_state_default;
+    ang_load_report_name(shown->study->handle, name);
+    copy_window(shown, state);
+    state->preset = preset_of(shown->document, err);
+    bool made = state->preset && copy_text(shown->path, &state->input_path, err) &&
+                copy_text(name, &state->input_name, err) && copy_text(data_options->raw_dims, &state->raw_dims, err) &&
+                copy_text(data_options->raw_type, &state->raw_type, err) &&
+                copy_text(data_options->raw_spacing, &state->raw_spacing, err) && add_render_options(shown, state, err);
+    if (!made) ang_state_clear(state);
+    return made;
 }
 
-char *ang_view_state_print(const ang_viewer_state *state) {
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "phase", state->phase);
-    if (state->study) add_study(root, state);
+/* The camera and whatever else options of a picture say. */
+static bool take_picture(const ang_state *state, const char *file, const ang_study *study, ang_document *document,
+                         ang_error *err) {
+    char *arguments[] = {"render", NULL};
+    ang_options options;
+    ang_picture picture = {.preset = state->preset};
+    ang_notes notes = {0};
+    bool made =
+        ang_options_parse(ANG_VERB_RENDER, 1, arguments, &options, err) && ang_state_offer(state, file, &options, err);
+    if (made && !ang_picture_make(&options, study->volume, study->handle, &picture, &notes, err)) {
+        ang_error why = *err;
+        made = ang_fail(err, why.code, "%s: %.900s", file, why.message);
+    }
+    if (made) {
+        document->view = picture.view;
+        document->mode = picture.scene.mode;
+        document->shading = picture.scene.shading;
+    }
+    picture.preset = NULL; /* the state's */
+    ang_picture_clear(&picture);
+    ang_notes_clear(&notes);
+    return made;
+}
+
+static bool take_maximised(const ang_state *state, const char *file, ang_session *session, ang_error *err) {
+    session->maximised = -1;
+    for (int i = 0; i < ANG_PANES; i++)
+        if (strcmp(state->maximised, pane_names[i]) == 0) session->maximised = i;
+    return session->maximised >= 0 || !state->maximised[0] ||
+           ang_fail(err, ANG_USAGE, "%s: maximised is \"%s\"; it must be axial, coronal, sagittal, volume or \"\"",
+                    file, state->maximised);
+}
+
+static bool take_method(const ang_state *state, const char *file, ang_session *session, ang_error *err) {
+    const char *name = state->method;
+    memcpy(session->method, name, sizeof session->method);
+    return !name[0] || strcmp(name, "auto") == 0 || ang_method_find(name) ||
+           ang_fail(err, ANG_USAGE, "%s: method is \"%s\", which there is none of", file, name);
+}
+
+bool ang_view_session_of(const ang_state *state, const char *file, const ang_study *study, ang_session *session,
+                         ang_error *err) {
+    *session = (ang_session){
+        .crosshair = state->crosshair, .corner_text = state->corner_text, .crosshair_lines = state->crosshair_lines};
+    ang_document *document = &session->document;
+    document->iso_hu = 300;
+    document->window_centre = document->window_width = NAN;
+    ang_document_take_preset(document, state->preset);
+    document->edited = state->preset_changed;
+    document->shift_hu = state->shift_hu;
+    document->stretch = state->stretch;
+    document->slab = state->slab;
+    document->slab_mm = state->slab_mm;
+    if (isfinite(state->window_centre) && isfinite(state->window_width)) {
+        document->window_centre = state->window_centre;
+        document->window_width = state->window_width;
+    }
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
+        session->slice[i].zoom = state->slice[i].zoom;
+        memcpy(session->slice[i].pan_mm, state->slice[i].pan_mm, sizeof session->slice[i].pan_mm);
+    }
+    memcpy(session->tool, state->tool, sizeof session->tool);
+    return take_picture(state, file, study, document, err) && take_maximised(state, file, session, err) &&
+           take_method(state, file, session, err);
+}
+
+static void add_slices(cJSON *live, const ang_viewer_state *shown) {
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
+        cJSON *slice = cJSON_AddObjectToObject(live, ang_orientation_name((ang_orientation)i));
+        cJSON_AddNumberToObject(slice, "slice", shown->slice[i].index + 1);
+        cJSON_AddNumberToObject(slice, "slices", shown->slice[i].count);
+    }
+}
+
+static void add_panes(cJSON *live, const ang_viewer_state *shown) {
+    cJSON *panes = cJSON_AddObjectToObject(live, "panes");
+    for (int i = 0; i < ANG_PANES; i++) {
+        const ang_rect *rect = &shown->pane[i];
+        add_numbers(panes, pane_names[i], (double[]){rect->x, rect->y, rect->width, rect->height}, 4);
+    }
+    cJSON_AddStringToObject(live, "hovered", shown->hovered < ANG_PANES ? pane_names[shown->hovered] : "");
+}
+
+static void add_live(cJSON *live, const ang_viewer_state *shown) {
+    add_slices(live, shown);
+    cJSON *editor = cJSON_AddObjectToObject(live, "editor");
+    const ang_rect *plot = &shown->editor;
+    add_numbers(editor, "plot", (double[]){plot->x, plot->y, plot->width, plot->height}, 4);
+    add_numbers(editor, "hu", (double[]){shown->editor_low, shown->editor_high}, 2);
+    cJSON_AddNumberToObject(editor, "point", shown->point);
+    ang_json_add_number(live, "azimuth_deg", shown->document->view.azimuth_deg);
+    ang_json_add_number(live, "elevation_deg", shown->document->view.elevation_deg);
+    cJSON_AddBoolToObject(live, "refined", shown->refined);
+    ang_json_add_number(live, "latency_ms", shown->latency_ms);
+    cJSON_AddNumberToObject(live, "frames", shown->frames);
+    ang_json_add_number(live, "frame_ms", shown->frame_ms);
+    cJSON_AddBoolToObject(live, "can_undo", shown->undo);
+    cJSON_AddBoolToObject(live, "can_redo", shown->redo);
+    add_panes(live, shown);
+    ang_json_add_number(live, "hovered_hu", shown->hovered_hu);
+}
+
+char *ang_view_state_print(const ang_viewer_state *shown, const ang_load_options *data_options) {
+    ang_state state;
+    bool there = shown->study && ang_view_state_of(shown, data_options, &state, NULL);
+    cJSON *root = there ? ang_state_json(&state, ANG_VERSION, NULL, true, NULL) : cJSON_CreateObject();
+    if (there) ang_state_clear(&state);
+    cJSON *live = cJSON_AddObjectToObject(root, "live");
+    cJSON_AddStringToObject(live, "phase", shown->phase);
+    if (there) add_live(live, shown);
     /* Without its folder, whose name may identify a patient. */
-    const char *slash = state->saved ? strrchr(state->saved, '/') : NULL;
-    if (state->saved) cJSON_AddStringToObject(root, "saved", slash ? slash + 1 : state->saved);
+    const char *slash = shown->saved ? strrchr(shown->saved, '/') : NULL;
+    if (shown->saved) cJSON_AddStringToObject(live, "saved", slash ? slash + 1 : shown->saved);
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     return text;

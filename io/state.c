@@ -102,9 +102,8 @@ static void add_window(cJSON *root, const ang_state *state) {
     }
     const ang_vec3 *at = &state->crosshair;
     if (isfinite(at->x)) add_numbers(root, "crosshair_mm", (double[]){at->x, at->y, at->z}, 3);
-    cJSON *slices = cJSON_AddObjectToObject(root, "slices");
     for (int i = 0; i < ANG_STATE_SLICES; i++) {
-        cJSON *slice = cJSON_AddObjectToObject(slices, names[i]);
+        cJSON *slice = cJSON_AddObjectToObject(root, names[i]);
         add_number(slice, "zoom", state->slice[i].zoom);
         add_numbers(slice, "pan_mm", state->slice[i].pan_mm, 2);
     }
@@ -144,6 +143,14 @@ cJSON *ang_state_json(const ang_state *state, const char *program_version, const
     }
     if (window) add_window(root, state);
     return root;
+}
+
+char *ang_state_print(const ang_state *state, const char *program_version, ang_error *err) {
+    cJSON *root = ang_state_json(state, program_version, NULL, false, err);
+    char *text = root ? cJSON_PrintUnformatted(root) : NULL;
+    if (root && !text) ang_fail(err, ANG_LIMIT, "no memory for a state");
+    cJSON_Delete(root);
+    return text;
 }
 
 bool ang_state_write(const char *file, const ang_state *state, const char *program_version, ang_error *err) {

@@ -59,12 +59,15 @@ const char *ang_state_option_value(const ang_state *state, const char *name);
 int ang_state_series(const ang_state *state);
 
 /* The state as a JSON object: {"angioscope_state": 1, "program", "input": {"path", "name", ...}, "preset": {...}, as in
- * preset.h, "render": {OPTION: VALUE, ...}, "window": {"centre", "width"}, "crosshair_mm", "slices": {"axial": {"zoom",
- * "pan_mm"}, ...}, "slab": {"mm", "mode"}, ...}. Every number exact. What is open is left out. `file` is where it will
- * be written: a path of the data below its folder becomes relative to that, any other absolute; NULL: no path. With
- * `window` false without what is of the window. NULL with ANG_LIMIT. Free with cJSON_Delete. */
+ * preset.h, "render": {OPTION: VALUE, ...}, "window": {"centre", "width"}, "crosshair_mm", "axial": {"zoom", "pan_mm"},
+ * ..., "slab": {"mm", "mode"}, ...}. Every number exact. What is open is left out. `file` is where it will be written:
+ * a path of the data below its folder becomes relative to that, any other absolute; NULL: no path. With `window` false
+ * without what is of the window. NULL with ANG_LIMIT. Free with cJSON_Delete. */
 cJSON *ang_state_json(const ang_state *state, const char *program_version, const char *file, bool window,
                       ang_error *err);
+/* The picture's part of that, without the path and what is of the window, as text in one line: to go into a picture.
+ * NULL with ANG_LIMIT. Free with free(). */
+char *ang_state_print(const ang_state *state, const char *program_version, ang_error *err);
 /* Replaces `file` by the state (io/replace.h). */
 bool ang_state_write(const char *file, const ang_state *state, const char *program_version, ang_error *err);
 
@@ -74,7 +77,7 @@ bool ang_state_write(const char *file, const ang_state *state, const char *progr
 bool ang_state_read(const char *file, ang_state *state, ang_error *err);
 /* The same from JSON in memory; `file` labels errors, and relative paths are relative to its folder. */
 bool ang_state_parse(const char *file, const char *text, ang_state *state, ang_error *err);
-/* Whether a file is a state in JSON, by its beginning: to tell it from data. */
+/* Whether a file is a state in JSON, by its beginning, or a picture that carries one: to tell it from data. */
 bool ang_state_probe(const char *file);
 
 #endif

@@ -10,29 +10,14 @@
 #include <string.h>
 #include <strings.h>
 
-static const char *const state_fields[] = {"angioscope_state",
-                                           "program",
-                                           "input",
-                                           "preset",
-                                           "render",
-                                           "window",
-                                           "slices",
-                                           "slab",
-                                           "crosshair_mm",
-                                           "shift_hu",
-                                           "preset_changed",
-                                           "stretch",
-                                           "maximised",
-                                           "tool",
-                                           "method",
-                                           "corner_text",
-                                           "live",
-                                           "crosshair_lines",
-                                           NULL};
+static const char *const state_fields[] = {
+    "angioscope_state", "program",  "input",  "preset",       "render",   "window",          "axial",
+    "coronal",          "sagittal", "slab",   "crosshair_mm", "shift_hu", "preset_changed",  "stretch",
+    "maximised",        "tool",     "method", "corner_text",  "live",     "crosshair_lines", NULL};
 static const char *const input_fields[] = {"path", "name", "raw_dims", "raw_type", "raw_spacing", NULL};
 static const char *const window_fields[] = {"centre", "width", NULL};
 static const char *const slab_fields[] = {"mm", "mode", NULL};
-static const char *const slices_fields[] = {"axial", "coronal", "sagittal", NULL};
+static const char *const slice_names[ANG_STATE_SLICES] = {"axial", "coronal", "sagittal"};
 static const char *const slice_fields[] = {"zoom", "pan_mm", NULL};
 
 static const double most_mm = 1e7, most_hu = ANG_TRANSFER_HU_LIMIT, least_width = 1e-6;
@@ -175,15 +160,13 @@ static bool read_options(reader *r) {
 }
 
 static bool read_slices(reader *r) {
-    const cJSON *slices, *slice;
-    if (!open_object(r, r->json.root, "", "slices", slices_fields, &slices)) return false;
+    const cJSON *slice;
     for (int i = 0; i < ANG_STATE_SLICES; i++) {
-        char path[32];
+        const char *name = slice_names[i];
         ang_state_slice *to = &r->state->slice[i];
-        snprintf(path, sizeof path, "slices.%s", slices_fields[i]);
-        if (!open_object(r, slices, "slices", slices_fields[i], slice_fields, &slice) ||
-            !read_number(r, slice, path, "zoom", 1e-3, 1e4, &to->zoom) ||
-            !read_numbers(r, slice, path, "pan_mm", 2, most_mm, to->pan_mm))
+        if (!open_object(r, r->json.root, "", name, slice_fields, &slice) ||
+            !read_number(r, slice, name, "zoom", 1e-3, 1e4, &to->zoom) ||
+            !read_numbers(r, slice, name, "pan_mm", 2, most_mm, to->pan_mm))
             return false;
     }
     return true;
@@ -273,6 +256,12 @@ bool ang_state_read(const char *file, ang_state *state, ang_error *err) {
 
 bool ang_state_probe(const char *file) {
     char start[256];
+    if (is_picture(file)) {
+        char *carried = ang_image_state(file, NULL);
+        bool carries = carried != NULL;
+        free(carried);
+        return carries;
+    }
     FILE *stream = fopen(file, "rb");
     if (!stream) return false;
     size_t length = fread(start, 1, sizeof start - 1, stream);

@@ -37,6 +37,11 @@ static void save_window(ang_viewer *viewer, int argument) {
     viewer->save_window = true;
 }
 
+static void save_state(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_session_save(viewer);
+}
+
 static void save_preset(ang_viewer *viewer, int argument) {
     (void)argument;
     ang_viewer_save_preset(viewer);
@@ -183,6 +188,9 @@ static const ang_action actions[] = {
     {"File", "Save picture of the window", NULL, 'S', C | S, save_window, 0, false, NULL, NULL},
     {"File", "Save preset", "the transfer function and modes as shown, a file for --preset", 'P', C, save_preset, 0,
      false, is_ready, NULL},
+    {"File", "Open state...", "a saved state, with the data that it is of", 'O', C | A, open_path, 0, true, NULL, NULL},
+    {"File", "Save state", "all that is shown, and where its data are: to go on later, and for render --state", 'S',
+     C | A, save_state, 0, false, is_ready, NULL},
     {"File", "Quit", NULL, 'Q', C, quit, 0, true, NULL, NULL},
     {"Edit", "Undo", "presets, points, windows, camera", 'Z', C, undo, 0, false, can_undo, NULL},
     {"Edit", "Redo", NULL, 'Z', C | S, redo, 0, false, can_redo, NULL},

@@ -15,8 +15,12 @@ void ang_viewer_save_preset(ang_viewer *viewer) {
     }
 }
 
-static void save(ang_viewer *viewer, const char *what, const ang_image *image, ang_error *err) {
-    if (!viewer->host->save_picture(viewer->host->context, what, image, viewer->saved, sizeof viewer->saved, err)) {
+/* With the state of the 3D pane's picture in it, where it is that. */
+static void save(ang_viewer *viewer, const char *what, const ang_image *image, bool with_state, ang_error *err) {
+    ang_viewer_state state;
+    if (with_state) ang_viewer_describe(viewer, &state);
+    if (!viewer->host->save_picture(viewer->host->context, what, image, with_state ? &state : NULL, viewer->saved,
+                                    sizeof viewer->saved, err)) {
         viewer->saved[0] = '\0';
         ang_viewer_say(viewer, true, "%s", err->message);
     } else {
@@ -37,7 +41,7 @@ void ang_save_window(ang_viewer *viewer) {
             for (size_t c = 0; c < 3; c++) image.rgba[4 * i + c] = (float)rgb[3 * i + c] / 255;
             image.rgba[4 * i + 3] = 1;
         }
-        save(viewer, "window", &image, &err);
+        save(viewer, "window", &image, false, &err);
         ang_image_clear(&image);
     } else {
         ang_viewer_say(viewer, true, "%s", err.message);
@@ -53,11 +57,11 @@ void ang_save_pane(ang_viewer *viewer) {
         if (viewer->volume.failure[0])
             ang_viewer_say(viewer, true, "%s", viewer->volume.failure);
         else
-            save(viewer, "volume", &viewer->volume.image, &err);
+            save(viewer, "volume", &viewer->volume.image, true, &err);
     } else {
         ang_image image = {0};
         if (ang_slice_image(viewer, (ang_orientation)viewer->save_pane, &image, &err))
-            save(viewer, ang_orientation_name((ang_orientation)viewer->save_pane), &image, &err);
+            save(viewer, ang_orientation_name((ang_orientation)viewer->save_pane), &image, false, &err);
         else
             ang_viewer_say(viewer, true, "%s", err.message);
         ang_image_clear(&image);

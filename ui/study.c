@@ -44,7 +44,7 @@ void ang_viewer_file_window(const ang_viewer *viewer, double *centre, double *wi
     *width = study->window_width;
 }
 
-static const ang_preset *preset_named(const ang_viewer *viewer, const char *name) {
+const ang_preset *ang_preset_named(const ang_viewer *viewer, const char *name) {
     for (int i = 0; viewer->host->presets[i]; i++)
         if (strcmp(viewer->host->presets[i]->name, name) == 0) return viewer->host->presets[i];
     return NULL;
@@ -52,7 +52,7 @@ static const ang_preset *preset_named(const ang_viewer *viewer, const char *name
 
 /* The preset to begin with; one of the host's making where the values are no Hounsfield units. */
 static const ang_preset *first_preset(ang_viewer *viewer, const char *wanted, ang_error *err) {
-    const ang_preset *found = wanted ? preset_named(viewer, wanted) : NULL;
+    const ang_preset *found = wanted ? ang_preset_named(viewer, wanted) : NULL;
     if (found) return found;
     viewer->own_preset = viewer->host->preset_for(viewer->host->context, &viewer->study, err);
     return viewer->own_preset;
@@ -77,6 +77,7 @@ static void show_study(ang_viewer *viewer, const ang_study *study, const char *w
     ang_study_close(viewer);
     viewer->study = *study;
     viewer->ready = true;
+    memcpy(viewer->path, viewer->asked, sizeof viewer->path);
     ang_document *document = &viewer->document;
     memset(document, 0, sizeof *document);
     document->view = ang_viewer_first_view;
@@ -96,13 +97,18 @@ static void show_study(ang_viewer *viewer, const ang_study *study, const char *w
         viewer->slice[i].view = ang_slice_view_default;
     }
     ang_viewer_point_at(viewer, ang_volume_centre(study->volume));
+    ang_session_apply(viewer);
     ang_history_note(&viewer->history, document, 0);
 }
 
 void ang_viewer_open(ang_viewer *viewer, const char *path) {
     ang_error err = {0};
+    char room[sizeof viewer->asked];
     ang_loading_end(&viewer->loading);
     viewer->failure[0] = '\0';
+    path = ang_session_data(viewer, path, room, sizeof room);
+    if (!path) return;
+    snprintf(viewer->asked, sizeof viewer->asked, "%s", path);
     if (!ang_loading_start(&viewer->loading, viewer->host, path, &err))
         snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);
 }

@@ -65,41 +65,50 @@ static void layout(ang_viewer *viewer) {
     ang_messages(viewer);
 }
 
-static void tell_host(ang_viewer *viewer) {
-    if (!viewer->host->shown) return;
+void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
     const ang_volume_picture *volume = &viewer->volume;
-    ang_viewer_state state = {.phase = viewer->loading.running ? "loading"
-                                       : viewer->failure[0]    ? "failed"
-                                       : viewer->ready         ? "ready"
-                                                               : "empty",
-                              .study = viewer->ready ? &viewer->study : NULL,
-                              .document = &viewer->document,
-                              .crosshair = viewer->crosshair,
-                              .hovered = viewer->hovered,
-                              .hovered_hu = viewer->hovered_hu,
-                              .maximised = viewer->maximised,
-                              .editor = viewer->editor,
-                              .editor_low = viewer->editor_low,
-                              .editor_high = viewer->editor_high,
-                              .point = viewer->point,
-                              .tool = ang_tool_name(viewer->tool),
-                              .method = volume->method ? volume->method->name : NULL,
-                              .size = {volume->size[0], volume->size[1]},
-                              .refined = volume->refined,
-                              .latency_ms = viewer->latency_ms,
-                              .frame_ms = volume->frame_ms,
-                              .undo = ang_history_can_undo(&viewer->history),
-                              .redo = ang_history_can_redo(&viewer->history),
-                              .saved = viewer->saved[0] ? viewer->saved : NULL,
-                              .frames = viewer->frames};
+    *state = (ang_viewer_state){.phase = viewer->loading.running ? "loading"
+                                         : viewer->failure[0]    ? "failed"
+                                         : viewer->ready         ? "ready"
+                                                                 : "empty",
+                                .study = viewer->ready ? &viewer->study : NULL,
+                                .path = viewer->path,
+                                .document = &viewer->document,
+                                .crosshair = viewer->crosshair,
+                                .hovered = viewer->hovered,
+                                .hovered_hu = viewer->hovered_hu,
+                                .maximised = viewer->maximised,
+                                .editor = viewer->editor,
+                                .editor_low = viewer->editor_low,
+                                .editor_high = viewer->editor_high,
+                                .point = viewer->point,
+                                .tool = ang_tool_name(viewer->tool),
+                                .corner_text = viewer->corner_text,
+                                .crosshair_lines = viewer->crosshair_shown,
+                                .choice = ang_volume_method_choice(viewer),
+                                .method = volume->method ? volume->method->name : NULL,
+                                .size = {volume->size[0], volume->size[1]},
+                                .refined = volume->refined,
+                                .latency_ms = viewer->latency_ms,
+                                .frame_ms = volume->frame_ms,
+                                .undo = ang_history_can_undo(&viewer->history),
+                                .redo = ang_history_can_redo(&viewer->history),
+                                .saved = viewer->saved[0] ? viewer->saved : NULL,
+                                .frames = viewer->frames};
     for (int i = 0; i < ANG_ORIENTATIONS && viewer->ready; i++) {
-        state.slice[i].index = ang_slice_index(&viewer->range[i], viewer->crosshair);
-        state.slice[i].count = viewer->range[i].count;
-        state.slice[i].zoom = viewer->slice[i].view.zoom;
-        memcpy(state.slice[i].pan_mm, viewer->slice[i].view.pan_mm, sizeof state.slice[i].pan_mm);
-        state.pane[i] = viewer->pane[i];
+        state->slice[i].index = ang_slice_index(&viewer->range[i], viewer->crosshair);
+        state->slice[i].count = viewer->range[i].count;
+        state->slice[i].zoom = viewer->slice[i].view.zoom;
+        memcpy(state->slice[i].pan_mm, viewer->slice[i].view.pan_mm, sizeof state->slice[i].pan_mm);
+        state->pane[i] = viewer->pane[i];
     }
-    state.pane[ANG_PANE_VOLUME] = viewer->pane[ANG_PANE_VOLUME];
+    state->pane[ANG_PANE_VOLUME] = viewer->pane[ANG_PANE_VOLUME];
+}
+
+static void tell_host(ang_viewer *viewer) {
+    ang_viewer_state state;
+    if (!viewer->host->shown) return;
+    ang_viewer_describe(viewer, &state);
     viewer->host->shown(viewer->host->context, &state);
 }
 

@@ -12,6 +12,7 @@
 #include "core/volume/volume.h"
 #include "ui/gui.h"
 #include "ui/state/document.h"
+#include "ui/state/session.h"
 #include "ui/state/slice_geometry.h"
 
 /* What has been loaded. Owned by the host until `release`. */
@@ -31,6 +32,7 @@ typedef enum ang_pane { ANG_PANE_AXIAL, ANG_PANE_CORONAL, ANG_PANE_SAGITTAL, ANG
 typedef struct ang_viewer_state {
     const char *phase; /* "empty", "loading", "ready", "failed" */
     const ang_study *study;
+    const char *path; /* that the study was read from */
     const ang_document *document;
     ang_vec3 crosshair; /* LPS mm */
     struct {
@@ -45,8 +47,10 @@ typedef struct ang_viewer_state {
     double editor_low, editor_high; /* HU at its sides */
     int point;                      /* chosen in the editor; -1: none */
     const char *tool;
-    const char *method;
-    int size[2]; /* of the 3D picture, pixels */
+    bool corner_text, crosshair_lines; /* are shown on the panes */
+    const char *choice;                /* of method: "auto" or a name */
+    const char *method;                /* that draws; NULL: none yet */
+    int size[2];                       /* of the 3D picture, pixels */
     bool refined;
     double latency_ms; /* from the last event to the window that showed what came of it */
     double frame_ms;   /* the last 3D picture's */
@@ -63,9 +67,20 @@ typedef struct ang_viewer_host {
     void (*release)(void *context, ang_study *study);
     /* A preset for a study whose values are no Hounsfield units, which the viewer frees; or NULL and an error. */
     ang_preset *(*preset_for)(void *context, const ang_study *study, ang_error *err);
-    /* Writes a picture to a new file, whose path goes to `path`. */
-    bool (*save_picture)(void *context, const char *what, const ang_image *image, char *path, size_t size,
-                         ang_error *err);
+    /* Writes a picture to a new file, whose path goes to `path`. With `state`, which repeats it; NULL: none does. */
+    bool (*save_picture)(void *context, const char *what, const ang_image *image, const ang_viewer_state *state,
+                         char *path, size_t size, ang_error *err);
+    /* The same of the state alone. */
+    bool (*save_state)(void *context, const ang_viewer_state *state, char *path, size_t size, ang_error *err);
+    /* Whether a file is a saved state, or a picture that carries one, and no data. */
+    bool (*is_state)(void *context, const char *file);
+    /* Reads a saved state: where its data are goes to `path`. False where it is broken or they are not there; they may
+     * be opened from elsewhere then. */
+    bool (*open_state)(void *context, const char *file, char *path, size_t size, ang_error *err);
+    /* What the state that was opened says of a study: once, for the study that comes after it. A window of NaN means as
+     * suits. Where it was saved of other data `err` says so, though this returns true. False where there is no state
+     * or, with a message in `err`, it cannot be shown. */
+    bool (*session)(void *context, const ang_study *study, ang_session *session, ang_error *err);
     /* Writes what is shown as a preset to a new file, whose path goes to `path`. */
     bool (*save_preset)(void *context, const ang_document *document, char *path, size_t size, ang_error *err);
     /* Told after each frame after which something differs; NULL: not wanted. */

@@ -71,6 +71,8 @@ typedef struct ang_viewer {
     ang_loading loading;
     ang_study study;
     bool ready;         /* there is a study */
+    char path[1024];    /* that it was read from */
+    char asked[1024];   /* that is being read */
     char failure[1100]; /* what is shown instead of a study or of what was asked for; empty: nothing */
 
     ang_document document;
@@ -112,6 +114,8 @@ typedef struct ang_viewer {
 
 /* viewer.c */
 void ang_viewer_say(ang_viewer *viewer, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* What is shown; borrows from the viewer. */
+void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state);
 
 /* study.c */
 extern const ang_view ang_viewer_first_view;
@@ -119,12 +123,22 @@ void ang_viewer_open(ang_viewer *viewer, const char *path);
 /* Shows what has been loaded meanwhile. */
 void ang_study_take_loaded(ang_viewer *viewer, const char *wanted_preset);
 void ang_study_close(ang_viewer *viewer);
+const ang_preset *ang_preset_named(const ang_viewer *viewer, const char *name); /* NULL: there is none */
 void ang_viewer_choose_preset(ang_viewer *viewer, const ang_preset *preset);
 /* The crosshair to a place, kept within the volume and on slices. */
 void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm);
 /* The window that the file asks for, else one that suits. */
 void ang_viewer_file_window(const ang_viewer *viewer, double *centre, double *width);
 double ang_viewer_hu_at(const ang_viewer *viewer, ang_vec3 mm); /* NaN outside */
+
+/* session.c */
+/* What is to be read where `path` is opened: itself or, where it is a saved state, the state's data, in `room`. NULL
+ * where the state says why not, which is then the viewer's failure. */
+const char *ang_session_data(ang_viewer *viewer, const char *path, char *room, size_t size);
+/* Shows the study that has just been loaded as the state says that it was opened by; nothing where there is none. */
+void ang_session_apply(ang_viewer *viewer);
+void ang_session_save(ang_viewer *viewer);
+const char *ang_volume_method_choice(const ang_viewer *viewer); /* "auto" or a name */
 
 /* saving.c */
 void ang_viewer_save_preset(ang_viewer *viewer);

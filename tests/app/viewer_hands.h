@@ -73,17 +73,33 @@ static inline void start_viewer(const char *arguments) {
     }
 }
 
-/* The state as last written; the caller deletes it. NULL: none yet. */
+/* What `from` has goes to `to`, objects of one name into one another. */
+static inline void merge(cJSON *to, cJSON *from) {
+    while (from->child) {
+        cJSON *item = cJSON_DetachItemViaPointer(from, from->child);
+        cJSON *there = cJSON_GetObjectItem(to, item->string);
+        if (there && cJSON_IsObject(there)) {
+            merge(there, item);
+            cJSON_Delete(item);
+        } else {
+            cJSON_AddItemToObject(to, item->string, item);
+        }
+    }
+}
+
+/* The state as last written, what is "live" taken up beside the rest; the caller deletes it. NULL: none yet. */
 static inline cJSON *read_state(void) {
     ang_json json;
     if (!ang_json_open(STATE, &json, NULL)) return NULL;
-    cJSON *root = json.root;
+    cJSON *root = json.root, *live = cJSON_DetachItemFromObject(root, "live");
+    if (live) merge(root, live);
+    cJSON_Delete(live);
     json.root = NULL;
     ang_json_close(&json);
     return root;
 }
 
-/* "axial.slice", "render.3" */
+/* "axial.slice", "crosshair_mm.2" */
 static inline cJSON *field(cJSON *root, const char *path) {
     char name[64];
     while (root && *path) {
@@ -226,20 +242,10 @@ static inline void write_file(const char *path, const char *text) {
     fclose(file);
 }
 
-/* Camera, preset and size from the state, a headless picture of them, and the two beside one another; `saved` is a
- * name in PICTURES. */
+/* A headless picture of the state as it is, beside what the window saved; `saved` is a name in PICTURES. */
 static inline void compare_with_headless(const char *saved, const char *input) {
-    char arguments[2048], path[256];
-    cJSON *shown = read_state();
-    char *preset = cJSON_Print(field(shown, "preset"));
-    write_file(FOLDER "/shown.json", preset);
-    int used = snprintf(arguments, sizeof arguments,
-                        "render %s -q -o " FOLDER "/headless.png --preset " FOLDER "/shown.json", input);
-    const cJSON *option;
-    cJSON_ArrayForEach(option, field(shown, "render")) used +=
-        snprintf(arguments + used, sizeof arguments - (size_t)used, " %s", option->valuestring);
-    free(preset);
-    cJSON_Delete(shown);
+    char arguments[1024], path[256];
+    snprintf(arguments, sizeof arguments, "render %s --state " STATE " -q -o " FOLDER "/headless.png", input);
     assert_int_equal(run(arguments), 0);
     snprintf(path, sizeof path, PICTURES "/%s", saved);
     double levels = difference(path, FOLDER "/headless.png");

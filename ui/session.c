@@ -1,0 +1,71 @@
+/* Sessions: from what is shown, and back to it; state files through the host. */
+#include "ui/viewer_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *ang_volume_method_choice(const ang_viewer *viewer) {
+    return viewer->volume.choice > 0 ? ang_methods()[viewer->volume.choice - 1]->name : "auto";
+}
+
+static void restore(ang_viewer *viewer, const ang_session *session) {
+    viewer->document = session->document;
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) viewer->slice[i].view = session->slice[i];
+    if (isfinite(session->crosshair.x)) ang_viewer_point_at(viewer, session->crosshair);
+    viewer->maximised = session->maximised;
+    viewer->corner_text = session->corner_text;
+    viewer->crosshair_shown = session->crosshair_lines;
+    int tool = 0;
+    while (tool < ANG_TOOLS && strcmp(ang_tool_name((ang_tool)tool), session->tool) != 0) tool++;
+    if (tool < ANG_TOOLS) viewer->tool = (ang_tool)tool;
+    if (session->tool[0] && tool == ANG_TOOLS)
+        ang_viewer_say(viewer, true, "The state has a tool \"%s\", which this program does not", session->tool);
+    if (strcmp(session->method, "auto") == 0) ang_volume_set_method(viewer, 0);
+    for (int i = 0; ang_methods()[i]; i++)
+        if (strcmp(ang_methods()[i]->name, session->method) == 0) ang_volume_set_method(viewer, i + 1);
+}
+
+void ang_session_apply(ang_viewer *viewer) {
+    ang_session session;
+    ang_error err = {0};
+    const ang_viewer_host *host = viewer->host;
+    bool found = host->session(host->context, &viewer->study, &session, &err);
+    if (found && err.message[0]) ang_viewer_say(viewer, true, "%s", err.message);
+    if (!found) {
+        snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);
+        return;
+    }
+    ang_document *document = &session.document;
+    if (!isfinite(document->window_centre)) {
+        document->window_centre = viewer->document.window_centre;
+        document->window_width = viewer->document.window_width;
+    }
+    /* The preset that it began from is what it is compared with, and what "Reset" goes back to. */
+    const ang_preset *origin = ang_preset_named(viewer, document->preset);
+    viewer->chosen = *document;
+    if (origin) ang_document_take_preset(&viewer->chosen, origin);
+    restore(viewer, &session);
+}
+
+const char *ang_session_data(ang_viewer *viewer, const char *path, char *room, size_t size) {
+    const ang_viewer_host *host = viewer->host;
+    ang_error err = {0};
+    if (!host->is_state(host->context, path)) return path;
+    if (host->open_state(host->context, path, room, size, &err)) return room;
+    snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);
+    return NULL;
+}
+
+void ang_session_save(ang_viewer *viewer) {
+    ang_error err = {0};
+    ang_viewer_state state;
+    const ang_viewer_host *host = viewer->host;
+    ang_viewer_describe(viewer, &state);
+    if (!host->save_state(host->context, &state, viewer->saved, sizeof viewer->saved, &err)) {
+        viewer->saved[0] = '\0';
+        ang_viewer_say(viewer, true, "%s", err.message);
+    } else {
+        ang_viewer_say(viewer, false, "Saved %s", viewer->saved);
+    }
+}

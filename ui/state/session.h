@@ -1,0 +1,18 @@
+/* What the viewer shows of a study, to be saved and shown again. A plain value. */
+#ifndef ANG_UI_SESSION_H
+#define ANG_UI_SESSION_H
+
+#include "ui/state/document.h"
+#include "ui/state/slice_geometry.h"
+
+typedef struct ang_session {
+    ang_document document;
+    ang_vec3 crosshair; /* LPS mm; all three NaN: the middle */
+    ang_slice_view slice[ANG_ORIENTATIONS];
+    int maximised;                     /* ang_pane; -1: none */
+    char tool[16];                     /* "": as it is */
+    char method[16];                   /* "auto" or a name; "": as it is */
+    bool corner_text, crosshair_lines; /* shown on the panes */
+} ang_session;
+
+#endif
