@@ -1,5 +1,6 @@
 #include "app/picture_state.h"
 
+#include "io/json.h"
 #include "io/report.h"
 
 #include <math.h>
@@ -90,10 +91,13 @@ static void effective(const filling *filling, const char *name, char *value, siz
     const ang_picture *picture = filling->picture;
     const ang_view *view = &picture->view;
     if (strcmp(name, "method") == 0) snprintf(value, size, "%s", filling->method->name);
-    if (strcmp(name, "step") == 0) snprintf(value, size, "%.17g", picture->render.step_voxels);
+    char number[3][40];
+    if (strcmp(name, "step") == 0)
+        snprintf(value, size, "%s", ang_json_number_text(picture->render.step_voxels, number[0]));
     if (strcmp(name, "mode") == 0) snprintf(value, size, "%s", picture->lookups ? "lookups" : "");
     if (strcmp(name, "view") == 0)
-        snprintf(value, size, "%.17g,%.17g,%.17g", view->azimuth_deg, view->elevation_deg, view->roll_deg);
+        snprintf(value, size, "%s,%s,%s", ang_json_number_text(view->azimuth_deg, number[0]),
+                 ang_json_number_text(view->elevation_deg, number[1]), ang_json_number_text(view->roll_deg, number[2]));
 }
 
 static void take(void *context, const char *name, const char *given) {

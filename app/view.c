@@ -5,6 +5,7 @@
 
 #include "app/picture_state.h"
 #include "app/view_state.h"
+#include "app/view_waiting.h"
 #include "io/font.h"
 #include "io/image/image_io.h"
 #include "io/load.h"
@@ -26,9 +27,7 @@ typedef struct view {
     int preset_count;
     char *state; /* as last written; NULL: not yet */
     bool state_failed;
-    ang_state waiting; /* for the study that is opened next; no preset: there is none */
-    char *waiting_file;
-    bool waiting_any; /* it is for other data than its own, too: they were named beside it */
+    ang_waiting waiting;
 } view;
 
 static void copy_notes(const ang_load_report *report, ang_study *study) {
@@ -53,22 +52,8 @@ static void release(void *context, ang_study *study) {
     *study = (ang_study){0};
 }
 
-/* As the options ask, or the state whose data they are. */
-static ang_load_options load_options(const view *view, char series[12]) {
-    ang_load_options how = ang_app_load_options(view->options);
-    const ang_state *state = &view->waiting;
-    int number = state->preset ? ang_state_series(state) : 0;
-    snprintf(series, 12, "%d", number);
-    if (number > 0 && !how.series) how.series = series;
-    if (!how.raw_dims) how.raw_dims = state->raw_dims;
-    if (!how.raw_type) how.raw_type = state->raw_type;
-    if (!how.raw_spacing) how.raw_spacing = state->raw_spacing;
-    return how;
-}
-
 static bool load(void *context, const char *path, ang_study *study, const ang_progress *progress, ang_error *err) {
-    char series[12];
-    ang_load_options how = load_options(context, series);
+    ang_load_options how = ang_waiting_load_options(&((view *)context)->waiting, path);
     *study = (ang_study){0};
     ang_load_report *report = calloc(1, sizeof *report);
     if (!report) return ang_fail(err, ANG_LIMIT, "no memory for a report");
@@ -145,43 +130,13 @@ static bool is_state(void *context, const char *file) {
     return ang_state_probe(file);
 }
 
-static bool wait_for_study(view *view, const char *file, ang_error *err) {
-    free(view->waiting_file);
-    view->waiting_file = strdup(file);
-    ang_state_clear(&view->waiting);
-    return (view->waiting_file || ang_fail(err, ANG_LIMIT, "no memory for a path")) &&
-           ang_state_read(file, &view->waiting, err);
-}
-
 static bool open_state(void *context, const char *file, char *path, size_t size, ang_error *err) {
-    view *view = context;
-    view->waiting_any = false;
-    if (!wait_for_study(view, file, err)) return false;
-    const char *data = view->waiting.input_path;
-    if (!data)
-        return ang_fail(err, ANG_INPUT, "%s: does not say where its data are. Open them, and they are shown like that.",
-                        file);
-    if (access(data, F_OK) != 0)
-        return ang_fail(err, ANG_INPUT, "%s: its data, %s, are not there. Open them where they are now.", file, data);
-    return snprintf(path, size, "%s", data) < (int)size ||
-           ang_fail(err, ANG_INPUT, "%s: the path of its data is too long", file);
+    ang_waiting *waiting = &((view *)context)->waiting;
+    return ang_waiting_read(waiting, file, err) && ang_waiting_data(waiting, path, size, err);
 }
 
 static bool session(void *context, const ang_study *study, ang_session *session, ang_error *err) {
-    view *view = context;
-    ang_state *state = &view->waiting;
-    ang_notes warnings = {0};
-    *err = (ang_error){0};
-    if (!state->preset) return false;
-    bool same = ang_state_matches(state, study->handle, &warnings);
-    bool wanted = same || view->waiting_any || state->input_path;
-    bool found = wanted && ang_view_session_of(state, view->waiting_file, study, session, err);
-    if (warnings.count > 0)
-        ang_fail(err, ANG_INPUT, "%s: %s%s", view->waiting_file, warnings.text[0],
-                 found ? "" : "; it is not shown of these");
-    ang_notes_clear(&warnings);
-    ang_state_clear(state);
-    return found;
+    return ang_waiting_session(&((view *)context)->waiting, study, session, err);
 }
 
 static bool save_preset(void *context, const ang_document *document, char *path, size_t size, ang_error *err) {
@@ -234,14 +189,6 @@ static bool read_presets(view *view, const char **chosen, ang_error *err) {
     return true;
 }
 
-/* --state: of the data that are named beside it, else of its own. */
-static bool begin_with_state(view *view, ang_viewer_options *how, ang_error *err) {
-    if (!wait_for_study(view, view->options->state, err)) return false;
-    view->waiting_any = how->path != NULL;
-    if (!how->path) how->path = view->options->state;
-    return true;
-}
-
 static bool run(view *view, ang_error *err) {
     const ang_options *options = view->options;
     ang_viewer_options how = {.path = options->argument_count > 0 ? options->arguments[0] : NULL};
@@ -250,7 +197,8 @@ static bool run(view *view, ang_error *err) {
     how.width = size[0];
     how.height = size[1];
     if (!read_presets(view, &how.preset, err)) return false;
-    if (options->state && !begin_with_state(view, &how, err)) return false;
+    if (options->state && !ang_waiting_read(&view->waiting, options->state, err)) return false;
+    if (options->state && !how.path) how.path = options->state;
     ang_viewer_host host = {.context = view,
                             .load = load,
                             .release = release,
@@ -272,12 +220,11 @@ static bool run(view *view, ang_error *err) {
 int ang_app_view(const ang_options *options, ang_error *err) {
     if (options->argument_count > 1 && !ang_app_arguments(options, 1, "view: give one file or folder to open", err))
         return ANG_USAGE;
-    view view = {.options = options, .waiting = ang_state_default};
+    view view = {.options = options, .waiting = {.options = options, .state = ang_state_default}};
     bool done = run(&view, err);
     for (int i = 0; i < view.preset_count; i++) ang_preset_free(view.presets[i]);
     free(view.state);
-    free(view.waiting_file);
-    ang_state_clear(&view.waiting);
+    ang_waiting_clear(&view.waiting);
     return done ? ANG_OK : (int)err->code;
 }
 

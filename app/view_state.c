@@ -16,10 +16,11 @@ static void add_numbers(cJSON *object, const char *name, const double *values, i
 
 /* Enough digits to come back as the same number. */
 static bool add_option_numbers(ang_state *state, const char *option, const double *values, int count, ang_error *err) {
-    char text[160];
+    char text[160], number[40];
     int used = 0;
     for (int i = 0; i < count; i++)
-        used += snprintf(text + used, sizeof text - (size_t)used, "%s%.17g", i > 0 ? "," : "", values[i]);
+        used += snprintf(text + used, sizeof text - (size_t)used, "%s%s", i > 0 ? "," : "",
+                         ang_json_number_text(values[i], number));
     return ang_state_add_option(state, option, text, err);
 }
 

@@ -267,11 +267,16 @@ void ang_json_add_number(cJSON *object, const char *name, double value) {
         cJSON_AddNullToObject(object, name);
 }
 
-cJSON *ang_json_exact(double value) {
-    char text[40] = "null";
+const char *ang_json_number_text(double value, char text[40]) {
+    snprintf(text, 40, "null");
     for (int digits = 15; digits <= 17 && isfinite(value); digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, value);
+        snprintf(text, 40, "%.*g", digits, value);
         if (strtod(text, NULL) == value) break;
     }
-    return cJSON_CreateRaw(text);
+    return text;
+}
+
+cJSON *ang_json_exact(double value) {
+    char text[40];
+    return cJSON_CreateRaw(ang_json_number_text(value, text));
 }

@@ -40,8 +40,9 @@ bool ang_json_number(const ang_json *json, const cJSON *item, const char *path, 
 
 /* Adds a number under `name`, or null where it is not finite, which JSON cannot say. */
 void ang_json_add_number(cJSON *object, const char *name, double value);
-/* The shortest decimal that reads back as the same double, null where it is not finite; cJSON's own printing stops an
- * epsilon short. To be printed: in memory it is no number to cJSON. */
+/* The shortest decimal that reads back as the same double; "null" where it is not finite. Returns `text`. */
+const char *ang_json_number_text(double value, char text[40]);
+/* That as an item, to be printed: in memory it is no number to cJSON, whose own printing stops an epsilon short. */
 cJSON *ang_json_exact(double value);
 
 /* The text of the value at `path` in valid JSON, with blanks and line ends before it so that its lines keep their

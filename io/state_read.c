@@ -147,10 +147,7 @@ static bool read_options(reader *r) {
         snprintf(whole, sizeof whole, "render.%s", item->string);
         const char *value = cJSON_GetStringValue(item);
         if (cJSON_IsTrue(item)) value = "";
-        if (cJSON_IsNumber(item)) {
-            snprintf(number, sizeof number, "%.17g", item->valuedouble);
-            value = number;
-        }
+        if (cJSON_IsNumber(item)) value = ang_json_number_text(item->valuedouble, number);
         if (ang_state_option_value(r->state, item->string))
             return ang_json_fail(&r->json, whole, r->err, "%s is given twice; keep one of them", whole);
         if (!value) return ang_json_fail(&r->json, whole, r->err, "%s must be a text, a number or true", whole);

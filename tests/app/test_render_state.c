@@ -43,7 +43,7 @@ static void a_picture_is_drawn_again(void **state) {
     };
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         static const char *const endings[] = {"png", "exr"};
-        for (size_t e = 0; e < 2; e++) {
+        for (size_t e = 0; e < (i == 0 ? 2 : 1); e++) {
             char arguments[1024], names[2][32];
             snprintf(arguments, sizeof arguments, "render " DATA " --backend none %s" QUIET "/%zu.%s", scenes[i], i,
                      endings[e]);

@@ -128,6 +128,23 @@ static void a_large_pane_is_restored(void **state) {
     assert_int_equal(wait_for_end(), 0);
 }
 
+/* What a picture shows, of data that are named beside it; a preset goes before the picture's. */
+static void a_picture_is_gone_on_with(void **state) {
+    (void)state;
+    need_window();
+    cJSON *saved = session_of(SAVED);
+    char view[128];
+    snprintf(view, sizeof view, "%s", text_at(saved, "render.view"));
+    start_viewer(DATA " --preset ct-skin --state " PICTURES "/angioscope-volume-0001.png");
+    expect_text("render.view", view);
+    expect_text("render.zoom", text_at(saved, "render.zoom"));
+    expect_text("preset.name", "ct-skin");
+    expect_text("tool", "window"); /* of which a picture says nothing */
+    cJSON_Delete(saved);
+    hands("key ctrl+q");
+    assert_int_equal(wait_for_end(), 0);
+}
+
 /* Opened like data, from a window that shows others; what a picture shows of them too. */
 static void a_state_is_opened_in_the_window(void **state) {
     (void)state;
@@ -143,6 +160,26 @@ static void a_state_is_opened_in_the_window(void **state) {
     expect_text("tool", "pan");
     hands("key ctrl+q");
     assert_int_equal(wait_for_end(), 0);
+}
+
+/* Data that are not the state's are shown without it, which is said. */
+static void a_state_is_not_shown_of_other_data(void **state) {
+    (void)state;
+    need_window();
+    assert_int_equal(run("phantom -o " FOLDER "/other --dims 64x64x32 --seed 2 --quiet"), 0);
+    assert_int_equal(system("mv " DATA " " FOLDER "/moved"), 0);
+    start_viewer("--state " SAVED);
+    expect_text("phase", "failed");
+    hands("key ctrl+o");
+    nap(300);
+    hands("type --delay 12 " FOLDER "/other");
+    hands("key Return");
+    expect_text("tool", "window"); /* the study is there */
+    expect_text("phase", "failed");
+    expect_number("slab.mm", 0, 0);
+    hands("key ctrl+q");
+    assert_int_equal(wait_for_end(), 0);
+    assert_int_equal(system("mv " FOLDER "/moved " DATA), 0);
 }
 
 /* Data that have moved: said, and the state waits until they are opened. */
@@ -185,7 +222,9 @@ int main(void) {
         cmocka_unit_test(a_session_is_saved_and_restored),
         cmocka_unit_test(its_picture_is_drawn_without_a_window),
         cmocka_unit_test(a_large_pane_is_restored),
+        cmocka_unit_test(a_picture_is_gone_on_with),
         cmocka_unit_test(a_state_is_opened_in_the_window),
+        cmocka_unit_test(a_state_is_not_shown_of_other_data),
         cmocka_unit_test(a_state_waits_for_data_that_have_moved),
         cmocka_unit_test(a_broken_state_is_refused),
     };
