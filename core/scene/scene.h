@@ -70,12 +70,19 @@ typedef struct ang_sampling {
     int width, height;    /* pixels: the larger picture's size */
 } ang_sampling;
 
+/* An oblique half-space that the picture does without: what lies at dot(normal, p) > offset_mm is cut away. */
+typedef struct ang_clip_plane {
+    ang_vec3 normal;  /* unit, LPS; zero: there is no plane */
+    double offset_mm; /* along the normal from the origin of LPS */
+} ang_clip_plane;
+
 /* Everything that decides what the picture shows. Borrows `transfer` and `objects`. */
 typedef struct ang_scene {
     int width, height; /* pixels that are drawn */
     ang_sampling sampling;
     ang_camera camera;
     ang_vec3 clip_lower, clip_upper; /* voxel index space; within ang_volume_box */
+    ang_clip_plane clip_plane;       /* none by default */
     ang_mode mode;
     ang_shading shading;
     ang_phong phong;
