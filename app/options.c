@@ -84,6 +84,10 @@ static const option_spec table[] = {
     REAL_OPTION("fov", DRAWS, fov, "DEG", 0.01, 179, "30", "degrees", "vertical field of view in perspective"),
     TEXT_OPTION("clip", DRAWS, clip, "x0,x1,y0,y1,z0,z1", NULL,
                 "clip box along the index axes, in mm from the first voxel or each with % of the box"),
+    TEXT_OPTION(
+        "clip-plane", DRAWS, clip_plane, "NX,NY,NZ,OFFSET_MM", NULL,
+        "cut away what lies beyond an oblique plane: along the normal NX,NY,NZ (LPS, of any length) farther than "
+        "OFFSET_MM from the origin of LPS"),
     FLAG_OPTION("axes", 0, DRAWS, axes,
                 "draw the patient's axes through the middle of the volume, with letters at their ends"),
     TEXT_OPTION(

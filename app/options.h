@@ -24,7 +24,8 @@ enum { ANG_MOST_OPTIONS = 128 };
 /* The values, with the table's defaults where not given. Strings are borrowed from argv or from the table. */
 typedef struct ang_options {
     const char *output;
-    const char *series, *preset, *method, *mode, *shading, *size, *view, *pan, *projection, *clip, *background;
+    const char *series, *preset, *method, *mode, *shading, *size, *view, *pan, *projection, *clip, *clip_plane,
+        *background;
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
         *skipping, *cut_plane, *measure, *force, *state, *write_state, *pictures, *classification;
     const char *cases;

@@ -134,6 +134,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     picture->view.fov_deg = options->fov;
     scene->camera = ang_camera_for(volume, &picture->view);
     if (options->clip && !ang_scene_clip_parse(options->clip, volume, scene, err)) return false;
+    if (options->clip_plane && !ang_clip_plane_parse(options->clip_plane, &scene->clip_plane, err)) return false;
     if (!read_background(options, scene->background, err) || !add_objects(options, volume, picture, err)) return false;
 
     picture->render = ang_render_options_default;

@@ -111,6 +111,11 @@ cJSON *ang_picture_json(const ang_picture *picture) {
     cJSON *clip = cJSON_AddObjectToObject(out, "clip");
     add_point(clip, "lower", scene->clip_lower);
     add_point(clip, "upper", scene->clip_upper);
+    if (ang_clip_plane_given(&scene->clip_plane)) {
+        cJSON *plane = cJSON_AddObjectToObject(out, "clip_plane");
+        add_point(plane, "normal", scene->clip_plane.normal);
+        ang_json_add_number(plane, "offset_mm", scene->clip_plane.offset_mm);
+    }
     cJSON_AddItemToObject(out, "background", cJSON_CreateDoubleArray(scene->background, 4));
     add_objects(out, scene->objects);
     ang_json_add_number(out, "step_voxels", picture->render.step_voxels);

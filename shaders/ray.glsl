@@ -17,7 +17,7 @@ struct Ray {
     vec3 origin;       // index, at t = 0
     vec3 direction;    // index per mm
     vec3 direction_mm; // unit
-    float enter;       // mm; nothing of the box is met where enter >= leave
+    float enter;       // mm; nothing is met where enter >= leave
     float leave;       // mm
 };
 
@@ -48,5 +48,6 @@ Ray ray_through(vec2 pixel) {
             ray.leave = min(ray.leave, max(t0, t1));
         }
     }
+    half_space_cut(ray.origin, ray.direction, ray.enter, ray.leave);
     return ray;
 }

@@ -30,7 +30,7 @@ vec3 slice_half_way(vec2 pixel) {
 }
 
 bool slice_in_box(vec3 place) {
-    return all(greaterThanEqual(place, box_lower)) && all(lessThanEqual(place, box_upper));
+    return all(greaterThanEqual(place, box_lower)) && all(lessThanEqual(place, box_upper)) && half_space_has(place);
 }
 
 // Along the ray, as long as it is on the plane of p: mm.

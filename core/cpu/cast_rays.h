@@ -35,6 +35,22 @@ INLINE int ray_y(int ray) { return (ray >> 2 & 3) | (ray >> 6) << 2; }
 
 INLINE lanes_double wide(double x) { return (lanes_double){0} + x; }
 
+/* Cuts the stretches of rays at the clip plane. */
+INLINE void cut_rays(const ang_ray_frame *frame, const lanes_double start[3], const lanes_double direction[3],
+                     lanes_double *enter, lanes_double *leave) {
+    const double gradient[3] = {frame->beyond.gradient.x, frame->beyond.gradient.y, frame->beyond.gradient.z};
+    lanes_double beyond = wide(frame->beyond.constant), rate = wide(0);
+    for (int axis = 0; axis < 3; axis++) {
+        beyond += gradient[axis] * start[axis];
+        rate += gradient[axis] * direction[axis];
+    }
+    lanes_long along = rate == 0;
+    lanes_double at = -beyond / lanes_pick_double(along, wide(1), rate);
+    *enter = lanes_pick_double((rate < 0) & (at > *enter), at, *enter);
+    *leave = lanes_pick_double((rate > 0) & (at < *leave), at, *leave);
+    *leave = lanes_pick_double(along & (beyond > 0), wide(-INFINITY), *leave);
+}
+
 /* ang_ray_through for the rays from `first` on of the tile at (x0, y0). */
 INLINE void make_rays(const ang_cast *cast, tile *t, int x0, int y0, int first) {
     const ang_ray_frame *frame = &cast->frame;
@@ -88,6 +104,7 @@ INLINE void make_rays(const ang_cast *cast, tile *t, int x0, int y0, int first) 
         leave = lanes_pick_double(far < leave, far, leave);
         leave = lanes_pick_double(misses, wide(-INFINITY), leave);
     }
+    if (frame->cuts) cut_rays(frame, start, direction, &enter, &leave);
     for (int axis = 0; axis < 3; axis++) {
         lanes_store(t->start[axis] + first, lanes_narrow(start[axis] + enter * direction[axis] + centre[axis]));
         lanes_store(t->direction[axis] + first, lanes_narrow(direction[axis]));

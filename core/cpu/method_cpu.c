@@ -161,6 +161,7 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     d->facts =
         ang_facts_make(ANG_DRAW_LANES, NULL, volume, scene, options, &d->frame, &renderer->table, 1.01 * d->step);
     d->plan = ang_plan_decide(&d->facts);
+    d->frame.cuts = uses(d, ANG_PART_CLIP_PLANE);
     if (uses(d, ANG_PART_SKIPPING) && !update_grid(renderer, options, d, err)) return false;
     d->plan = ang_plan_decide(&d->facts);
     return true;

@@ -36,12 +36,18 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
 
 static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
                     ang_error *err) {
-    (void)renderer;
     if (!ang_scene_check(scene, err)) return false;
-    ang_plan_facts facts = {.drawing = ANG_DRAW_REFERENCE, .mode = scene->mode, .forced = options->forced};
+    ang_ray_frame frame;
+    if (!ang_ray_frame_make(renderer->volume, scene, &frame, err)) return false;
+    ang_plan_facts facts = {.drawing = ANG_DRAW_REFERENCE,
+                            .mode = scene->mode,
+                            .has_clip_plane = ang_clip_plane_given(&scene->clip_plane),
+                            .plane_cuts = frame.cuts,
+                            .forced = options->forced};
     ang_plan_decisions decisions = ang_plan_decide(&facts);
     ang_plan_use(plan, "exact integration of every cell in double precision");
     ang_plan_leave_out(plan, "tables and octree", "the truth must not share their mistakes");
+    ang_plan_explain_part(&decisions, ANG_PART_CLIP_PLANE, plan);
     ang_plan_explain_part(&decisions, ANG_PART_GL, plan);
     return true;
 }

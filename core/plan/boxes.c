@@ -71,6 +71,11 @@ static bool find_planes(const traversal *t, double reach, ang_slice_box *box) {
     return box->begin < box->end && !ang_clip_space_outside(t->space, box->lower, box->upper);
 }
 
+/* Whether the clip plane cuts all of the box away. */
+static bool is_cut_away(const traversal *t, const ang_slice_box *box) {
+    return t->frame->cuts && ang_linear_form_least(&t->frame->beyond, box->lower, box->upper) > t->planes->rounding;
+}
+
 /* The box of a block; false where nothing of it can be seen. */
 static bool bound(const traversal *t, const ang_slice_block *block, ang_slice_box *box) {
     int first[3], end[3];
@@ -82,7 +87,15 @@ static bool bound(const traversal *t, const ang_slice_block *block, ang_slice_bo
         set(&box->owner_lower, axis, bottom ? -INFINITY : start_of(t->octree, axis) + first[axis]);
         set(&box->owner_upper, axis, top ? INFINITY : start_of(t->octree, axis) + end[axis]);
     }
-    return find_planes(t, t->planes->distance / 2, box);
+    return !is_cut_away(t, box) && find_planes(t, t->planes->distance / 2, box);
+}
+
+/* Whether a ray that crosses the box may begin or end at the clip plane within a step. */
+static bool is_near_plane(const traversal *t, const ang_slice_box *box) {
+    if (!t->frame->cuts) return false;
+    ang_vec3 g = t->frame->beyond.gradient, margin = t->cut->margin;
+    double step = fabs(g.x) * margin.x + fabs(g.y) * margin.y + fabs(g.z) * margin.z;
+    return ang_linear_form_greatest(&t->frame->beyond, box->lower, box->upper) > -step - t->planes->rounding;
 }
 
 /* Samples lie a step apart in depth and a pixel apart across, and pixels grow with the depth. */
@@ -172,6 +185,8 @@ static bool append_parts(traversal *t, const ang_slice_box *box, bool counting, 
             set(&part.owner_upper, axis, s->owner_upper);
             part.faces = part.faces || s->faces;
         }
+        if (is_cut_away(t, &part)) continue;
+        part.faces = part.faces || is_near_plane(t, &part);
         part.samples = estimate_samples(t, &part);
         if (part.faces) {
             /* A ray's one sample may lie half a step off its plane. */

@@ -19,7 +19,8 @@ typedef struct ang_slice_box {
     ang_vec3 owner_lower, owner_upper; /* it owns samples from lower up to, not at, upper; at the volume's faces
                                           infinite, so that each sample has exactly one owner */
     ang_slice_block block;
-    bool faces;     /* within a step of a face of the clip box or of the last plane: rays may begin and end here */
+    bool faces; /* within a step of a face of the clip box, of the clip plane or of the last plane: rays may begin and
+                   end here */
     int begin, end; /* the planes that meet it */
     double samples; /* estimate */
 } ang_slice_box;
@@ -47,10 +48,10 @@ typedef struct ang_slice_cut {
                                          polygons than they spare fragments (sections 6 and 7) */
 } ang_slice_cut;
 
-/* Traverses the tree top-down, children in the order of view, and leaves out what is invisible, outside the clip box or
- * outside the picture. Beyond the paper: where not all eight children are drawn, or not alike, neighbours among them
- * are joined to one box where that costs less. Adds to `boxes` after emptying it; zero-initialise it first, free with
- * ang_slice_boxes_clear. False with ANG_LIMIT. */
+/* Traverses the tree top-down, children in the order of view, and leaves out what is invisible, outside the clip box,
+ * beyond the clip plane or outside the picture. Beyond the paper: where not all eight children are drawn, or not alike,
+ * neighbours among them are joined to one box where that costs less. Adds to `boxes` after emptying it; zero-initialise
+ * it first, free with ang_slice_boxes_clear. False with ANG_LIMIT. */
 bool ang_slice_boxes_make(ang_slice_boxes *boxes, const ang_octree *octree, const ang_ray_frame *frame,
                           const ang_slice_planes *planes, const ang_clip_space *space, const ang_slice_cut *cut,
                           ang_error *err);

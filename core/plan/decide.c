@@ -19,6 +19,7 @@ static const struct {
     [ANG_PART_DIRECTIONS] = {"directions", "texture of directions", "1 of 2 lookups of every ray in every pass"},
     [ANG_PART_BORDER] = {"border", "border air", "samples before the first block that shows and behind the last"},
     [ANG_PART_SLABS] = {"slabs", "upload of slabs of the volume", "of the upload"},
+    [ANG_PART_CLIP_PLANE] = {"clip-plane", "clip plane", "its intersection with every ray"},
     [ANG_PART_REDRAW] = {"redraw", "drawing again", "the whole picture"},
     [ANG_PART_GL] = {"gl", "OpenGL", "making a context"},
     [ANG_PART_HULL] = {NULL, "envelope of what shows", NULL},
@@ -199,6 +200,12 @@ static ang_decision decide_slabs(const ang_plan_facts *facts, const ang_decision
     return slabs;
 }
 
+static ang_decision decide_clip_plane(const ang_plan_facts *facts) {
+    if (facts->plane_cuts) return needed();
+    const char *why = facts->has_clip_plane ? "it cuts nothing of the box" : "the scene has none";
+    return facts->drawing == ANG_DRAW_REFERENCE ? no_place(why) : spared(facts, ANG_PART_CLIP_PLANE, why);
+}
+
 static ang_decision decide_gradient_texture(const ang_plan_facts *facts, const ang_decision *skipping) {
     if (facts->drawing != ANG_DRAW_ENVELOPE) return no_place(NULL);
     if (is_surface(facts)) return no_place("an iso-surface is shaded once a pixel");
@@ -243,6 +250,7 @@ ang_plan_decisions ang_plan_decide(const ang_plan_facts *facts) {
                                                 : needed();
     to[ANG_PART_BORDER] = decide_border(facts);
     to[ANG_PART_SLABS] = decide_slabs(facts, &to[ANG_PART_SKIPPING]);
+    to[ANG_PART_CLIP_PLANE] = decide_clip_plane(facts);
     to[ANG_PART_REDRAW] = facts->same_as_before
                               ? spared(facts, ANG_PART_REDRAW, "nothing has changed since the picture before")
                               : needed();

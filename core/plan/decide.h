@@ -20,6 +20,7 @@ typedef enum ang_part {
     ANG_PART_DIRECTIONS,          /* raycast: directions of rays looked up from a texture */
     ANG_PART_BORDER,              /* border air: samples before the first and behind the last block that shows */
     ANG_PART_SLABS,               /* upload of slabs of the volume that cannot show */
+    ANG_PART_CLIP_PLANE,          /* tests of what it cuts away */
     ANG_PART_REDRAW,              /* drawing again what has not changed */
     ANG_PART_GL,                  /* an OpenGL context where the method needs none */
     ANG_FORCIBLE,                 /* the parts below are switched by options of their own */
@@ -84,6 +85,8 @@ typedef struct ang_plan_facts {
     double sample_mm;    /* that a sample stands for, at most */
     bool ahead;          /* the volume lies before the eye as a whole */
     bool starts_inside;  /* rays may start inside the volume: the near plane reaches into the clip box */
+    bool has_clip_plane; /* the scene has one... */
+    bool plane_cuts;     /* ... which cuts something of the clip box away */
     double bytes;        /* of the values */
     bool texture_shared; /* every sample reads one texture of the whole volume, of which parts may stay empty */
     /* of what was built; 0: not known yet */

@@ -181,14 +181,14 @@ static void set_uniforms(const void *context, unsigned program, const ang_ray_fr
     if (uses(d, ANG_PART_GRADIENT_TEXTURE)) ang_gradient_texture_bind(&renderer->gradients, program, UNIT_GRADIENTS);
 }
 
-static void compose_range(ang_shader_source *vertex, ang_shader_source *fragment) {
+static void compose_range(const decision *d, ang_shader_source *vertex, ang_shader_source *fragment) {
     *vertex = *fragment = (ang_shader_source){.count = 0};
-    ang_envelope_hull_parts(vertex, fragment);
+    ang_envelope_hull_parts(vertex, fragment, uses(d, ANG_PART_CLIP_PLANE));
 }
 
 static bool draw_range(ang_renderer *renderer, const ang_scene *scene, const decision *d, ang_error *err) {
     ang_shader_source vertex, fragment;
-    compose_range(&vertex, &fragment);
+    compose_range(d, &vertex, &fragment);
     unsigned program = ang_programs_get(&renderer->pass.programs, "envelope", &vertex, &fragment, err);
     return program && ang_envelope_hull_draw(&renderer->hull, renderer->pass.gl, program, &renderer->grid.shown,
                                              &d->frame, scene->width, scene->height, err);
@@ -254,7 +254,7 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
     explain_blocks(renderer, &d, plan);
     if (uses(&d, ANG_PART_HULL)) {
         ang_shader_source vertex, fragment;
-        compose_range(&vertex, &fragment);
+        compose_range(&d, &vertex, &fragment);
         ang_shader_explain(plan, "range of each ray in the envelope", &vertex, &fragment, 0);
     }
     const ang_ray_limits limits = {add_parts, set_uniforms, &d, uses(&d, ANG_PART_GRADIENT_TEXTURE), &d.plan};

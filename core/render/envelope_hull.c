@@ -132,11 +132,12 @@ bool ang_envelope_hull_update(ang_envelope_hull *hull, ang_gl *gl, const ang_blo
     return true;
 }
 
-void ang_envelope_hull_parts(ang_shader_source *vertex, ang_shader_source *fragment) {
+void ang_envelope_hull_parts(ang_shader_source *vertex, ang_shader_source *fragment, bool cuts) {
     ANG_SHADER_ADD(vertex, version);
     ANG_SHADER_ADD(vertex, hull_expand);
     ANG_SHADER_ADD(fragment, version);
     ANG_SHADER_ADD(fragment, limit_none); /* the pass that reads the ranges ends its rays itself */
+    ang_parts_half_space(fragment, cuts); /* ranges are measured from where rays enter */
     ANG_SHADER_ADD(fragment, ray);
     ANG_SHADER_ADD(fragment, hull_range);
 }

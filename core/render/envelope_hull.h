@@ -32,8 +32,8 @@ typedef struct ang_envelope_hull {
 bool ang_envelope_hull_update(ang_envelope_hull *hull, ang_gl *gl, const ang_block_grid *grid,
                               const ang_ray_frame *frame, size_t budget, ang_error *err);
 
-/* The programs' parts of the pass that draws the range. */
-void ang_envelope_hull_parts(ang_shader_source *vertex, ang_shader_source *fragment);
+/* The programs' parts of the pass that draws the range; `cuts`: whether the clip plane cuts rays. */
+void ang_envelope_hull_parts(ang_shader_source *vertex, ang_shader_source *fragment, bool cuts);
 /* Draws it, for a picture of width x height, with that program. False with ANG_LIMIT, ANG_GL. */
 bool ang_envelope_hull_draw(ang_envelope_hull *hull, ang_gl *gl, unsigned program, const ang_block_grid *grid,
                             const ang_ray_frame *frame, int width, int height, ang_error *err);

@@ -66,6 +66,8 @@ ang_plan_facts ang_facts_make(ang_drawing drawing, const ang_gl *gl, const ang_v
         .sample_mm = sample_mm,
         .ahead = ang_clip_space_ahead(&space, frame->lower, frame->upper),
         .starts_inside = may_start_inside(frame),
+        .has_clip_plane = ang_clip_plane_given(&scene->clip_plane),
+        .plane_cuts = frame->cuts,
         .bytes = (double)ang_volume_count(volume) * sizeof *volume->data,
         .share_uploaded = 1,
         .hull_fits = true,

@@ -1,5 +1,6 @@
 #include "core/render/limit_texture.h"
 
+#include "core/render/scene_parts.h"
 #include "core/render/target.h"
 
 #include <glad/gl.h>
@@ -38,11 +39,13 @@ void ang_limit_texture_destroy(ang_limit_texture *limits) {
     *limits = (ang_limit_texture){.texture = 0};
 }
 
-void ang_parts_ray(ang_shader_source *source, const ang_scene *scene, bool limited) {
-    if (limited && ang_scene_limits_rays(scene))
+void ang_parts_ray(ang_shader_source *source, const ang_scene *scene, const ang_plan_decisions *decisions,
+                   bool follows) {
+    if (follows && ang_scene_limits_rays(scene))
         ANG_SHADER_ADD(source, limit_objects);
     else
         ANG_SHADER_ADD(source, limit_none);
+    ang_parts_half_space(source, follows && ang_plan_uses(decisions, ANG_PART_CLIP_PLANE));
     ANG_SHADER_ADD(source, ray);
 }
 

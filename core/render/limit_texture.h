@@ -2,6 +2,7 @@
 #ifndef ANG_RENDER_LIMIT_TEXTURE_H
 #define ANG_RENDER_LIMIT_TEXTURE_H
 
+#include "core/plan/decide.h"
 #include "core/render/context.h"
 #include "core/render/program.h"
 #include "core/scene/object_layer.h"
@@ -20,9 +21,10 @@ bool ang_limit_texture_update(ang_limit_texture *limits, ang_gl *gl, const ang_v
 /* Deletes everything. The context must be current. */
 void ang_limit_texture_destroy(ang_limit_texture *limits);
 
-/* ray.glsl with the part that ends rays; `limited`: whether the program's rays are to end at objects, as far as the
- * scene has any. */
-void ang_parts_ray(ang_shader_source *source, const ang_scene *scene, bool limited);
+/* ray.glsl with the parts that end rays; `follows`: whether the program follows rays, which are to end at the scene's
+ * objects, if it has any, and at the clip plane, if that is used. */
+void ang_parts_ray(ang_shader_source *source, const ang_scene *scene, const ang_plan_decisions *decisions,
+                   bool follows);
 /* Binds the texture for the programs that end rays at it; nothing where the scene ends none. */
 void ang_limit_texture_bind(const ang_limit_texture *limits, const ang_scene *scene, unsigned program, int unit);
 /* Joins the objects with the picture that has been read; nothing for a scene without. */

@@ -72,7 +72,7 @@ static ang_shader_source compose(const ang_ray_pass *pass, const ang_scene *scen
                                                    : ANG_FIELD_HARDWARE;
     ang_shader_source source = {.count = 0};
     ANG_SHADER_ADD(&source, version);
-    ang_parts_ray(&source, scene, true);
+    ang_parts_ray(&source, scene, limits->decisions, true);
     ANG_SHADER_ADD(&source, lattice);
     ang_parts_field(&source, kind);
     ang_parts_classification(&source, scene, kind, limits->decisions);

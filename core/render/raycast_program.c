@@ -93,7 +93,7 @@ static void add_value(ang_shader_source *source, const ang_renderer *renderer, c
 }
 
 static void compose_rays(ang_shader_source *source, const ang_renderer *renderer, const ang_raycast *r) {
-    ang_parts_ray(source, r->scene, true);
+    ang_parts_ray(source, r->scene, &r->plan, true);
     add_path(source, r, false);
     if (ang_plan_uses(&r->plan, ANG_PART_DIRECTIONS))
         ANG_SHADER_ADD(source, raycast_keep);
@@ -106,7 +106,7 @@ static void compose_rays(ang_shader_source *source, const ang_renderer *renderer
 static void compose_main(ang_shader_source *source, const ang_renderer *renderer, const ang_raycast *r, bool counting) {
     if (ang_raycast_tests(r)) ANG_SHADER_ADD(source, early);
     if (ang_plan_uses(&r->plan, ANG_PART_GRADIENTS) && r->scene->mode == ANG_MODE_DVR)
-        ang_parts_ray(source, r->scene, false);
+        ang_parts_ray(source, r->scene, &r->plan, false);
     add_path(source, r, true);
     add_wake(source, renderer, r);
     add_value(source, renderer, r);
@@ -141,7 +141,7 @@ static void compose_empty(ang_shader_source *source, const ang_renderer *rendere
 
 static void compose_resolve(ang_shader_source *source, const ang_raycast *r, bool counting) {
     const ang_scene *scene = r->scene;
-    ang_parts_ray(source, scene, false);
+    ang_parts_ray(source, scene, &r->plan, scene->mode != ANG_MODE_ISO);
     if (scene->mode == ANG_MODE_ISO) {
         add_path(source, r, true);
         ang_parts_field(source, field_kind(r));

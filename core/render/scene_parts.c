@@ -151,6 +151,13 @@ void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const an
     }
 }
 
+void ang_parts_half_space(ang_shader_source *source, bool cuts) {
+    if (cuts)
+        ANG_SHADER_ADD(source, half_space);
+    else
+        ANG_SHADER_ADD(source, half_space_none);
+}
+
 void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space) {
     ang_uniform_vec4(program, "clip_x", space->x.gradient, space->x.constant);
     ang_uniform_vec4(program, "clip_y", space->y.gradient, space->y.constant);
@@ -172,6 +179,7 @@ void ang_uniforms_ray(unsigned program, const ang_ray_frame *frame) {
     ang_uniform_float(program, "ray_near_depth", frame->near_depth);
     ang_uniform_vec3(program, "box_lower", frame->lower);
     ang_uniform_vec3(program, "box_upper", frame->upper);
+    ang_uniform_vec4(program, "half_space_beyond", frame->beyond.gradient, frame->beyond.constant);
 }
 
 void ang_uniforms_field(unsigned program, const ang_volume_texture *texture, const ang_volume *volume,

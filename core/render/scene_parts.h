@@ -59,6 +59,9 @@ void ang_parts_medium(ang_shader_source *source, const ang_table_texture *table,
 void ang_parts_march(ang_shader_source *source, const ang_scene *scene, const ang_volume *volume, ang_field_kind kind,
                      const ang_table_texture *table, const ang_plan_decisions *decisions, bool seeks, bool count_shown);
 
+/* half_space_cut, which ray.glsl needs before it: `cuts`: whether the clip plane cuts rays. */
+void ang_parts_half_space(ang_shader_source *source, bool cuts);
+
 /* clip_x, clip_y and clip_w of what projects places of index space. */
 void ang_uniforms_clip_space(unsigned program, const ang_clip_space *space);
 /* ray.glsl */

@@ -54,7 +54,7 @@ static void compose_slices(sources *to, bool faces, const ang_slice_recipe *reci
     bool counting = recipe->counting;
     ang_slice_geometry_parts(recipe->options->proxy, group, &to->vertex);
     if (ang_plan_uses(recipe->plan[0], ANG_PART_TERMINATION)) ANG_SHADER_ADD(&to->fragment, early);
-    ang_parts_ray(&to->fragment, recipe->scene, true);
+    ang_parts_ray(&to->fragment, recipe->scene, recipe->plan[faces], true);
     ang_slice_planes_parts(group, &to->fragment);
     ANG_SHADER_ADD(&to->fragment, slice_sample);
     if (faces)
@@ -74,8 +74,9 @@ static void compose_slices(sources *to, bool faces, const ang_slice_recipe *reci
         ANG_SHADER_ADD(&to->fragment, slice_several);
 }
 
-static void compose_resolve(ang_shader_source *source, const ang_scene *scene) {
-    ang_parts_ray(source, scene, false);
+static void compose_resolve(ang_shader_source *source, const ang_slice_recipe *recipe) {
+    const ang_scene *scene = recipe->scene;
+    ang_parts_ray(source, scene, recipe->plan[0], true);
     ANG_SHADER_ADD(source, window);
     if (scene->mode == ANG_MODE_MEAN)
         ANG_SHADER_ADD(source, resolve_mean);
@@ -100,7 +101,7 @@ static sources compose(ang_slice_pass pass, const ang_slice_recipe *recipe) {
         break;
     case ANG_SLICE_RESOLVE:
         ANG_SHADER_ADD(&to.vertex, triangle);
-        compose_resolve(&to.fragment, recipe->scene);
+        compose_resolve(&to.fragment, recipe);
         break;
     case ANG_SLICE_EDGES:
         ANG_SHADER_ADD(&to.vertex, edge);

@@ -27,19 +27,9 @@ ang_clip_space ang_clip_space_make(const ang_ray_frame *frame, int width, int he
     return space;
 }
 
-double ang_linear_form_greatest(const ang_linear_form *form, ang_vec3 lower, ang_vec3 upper) {
-    double sum = form->constant;
-    for (int axis = 0; axis < 3; axis++) {
-        double g = ang_vec3_at(form->gradient, axis);
-        sum += fmax(g * ang_vec3_at(lower, axis), g * ang_vec3_at(upper, axis));
-    }
-    return sum;
-}
-
 bool ang_clip_space_ahead(const ang_clip_space *space, ang_vec3 lower, ang_vec3 upper) {
-    ang_linear_form behind = {ang_vec3_scale(space->w.gradient, -1), -space->w.constant};
     double farthest = ang_linear_form_greatest(&space->w, lower, upper);
-    return ang_linear_form_greatest(&behind, lower, upper) < -1e-3 * farthest;
+    return ang_linear_form_least(&space->w, lower, upper) > 1e-3 * farthest;
 }
 
 bool ang_clip_space_outside(const ang_clip_space *space, ang_vec3 lower, ang_vec3 upper) {

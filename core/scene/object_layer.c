@@ -66,10 +66,6 @@ static void object_corners(const ang_object *object, const ang_volume *volume, c
     }
 }
 
-static double form_at(const ang_linear_form *form, ang_vec3 p) {
-    return ang_vec3_dot(form->gradient, p) + form->constant;
-}
-
 /* Where the object may show; the whole picture where some of it lies beside or behind the eye. */
 static pixel_box box_of(const ang_object *object, const layer_job *job, const ang_clip_space *space) {
     int width = job->layer->width, height = job->layer->height;
@@ -78,10 +74,10 @@ static pixel_box box_of(const ang_object *object, const layer_job *job, const an
     object_corners(object, job->volume, job->frame, corner);
     double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
     for (int i = 0; i < 8; i++) {
-        double w = form_at(&space->w, corner[i]);
+        double w = ang_linear_form_at(&space->w, corner[i]);
         if (!(w > 0)) return all;
-        double x = 0.5 * width * (1 + form_at(&space->x, corner[i]) / w);
-        double y = 0.5 * height * (1 + form_at(&space->y, corner[i]) / w);
+        double x = 0.5 * width * (1 + ang_linear_form_at(&space->x, corner[i]) / w);
+        double y = 0.5 * height * (1 + ang_linear_form_at(&space->y, corner[i]) / w);
         x0 = fmin(x0, x);
         x1 = fmax(x1, x);
         y0 = fmin(y0, y);

@@ -215,6 +215,27 @@ refused:
                     "--clip %s: give x0,x1,y0,y1,z0,z1 in mm from the first voxel, or with %% of the box", text);
 }
 
+bool ang_clip_plane_parse(const char *text, ang_clip_plane *plane, ang_error *err) {
+    double number[4];
+    const char *rest = text;
+    for (int i = 0; i < 4; i++) {
+        char *end;
+        number[i] = strtod(rest, &end);
+        if (end == rest || !isfinite(number[i]) || *end != (i < 3 ? ',' : '\0')) goto refused;
+        rest = end + 1;
+    }
+    /* Scaled first, so that no square overflows or vanishes. */
+    double largest = fmax(fabs(number[0]), fmax(fabs(number[1]), fabs(number[2])));
+    if (!(largest > 0)) goto refused;
+    ang_vec3 normal = {number[0] / largest, number[1] / largest, number[2] / largest};
+    *plane = (ang_clip_plane){ang_vec3_unit(normal), number[3]};
+    return true;
+refused:
+    return ang_fail(err, ANG_USAGE,
+                    "--clip-plane %s: give NX,NY,NZ,OFFSET_MM: a normal that is not zero and its offset in mm, in LPS",
+                    text);
+}
+
 double ang_scene_grey(const ang_scene *scene, double hu) {
     return fmin(fmax((hu - scene->window_centre) / scene->window_width + 0.5, 0), 1);
 }
@@ -226,6 +247,19 @@ static void take_samples(ang_ray_frame *frame, const ang_sampling *sampling) {
     frame->origin_mm = ang_vec3_along(ang_vec3_along(frame->origin_mm, frame->step_x_mm, left), frame->step_y_mm, top);
     frame->step_x_mm = ang_vec3_scale(frame->step_x_mm, sampling->stride);
     frame->step_y_mm = ang_vec3_scale(frame->step_y_mm, sampling->stride);
+}
+
+/* A plane that touches the clip box, or leaves all of it away but a face, must not leave slivers to rounding. */
+static void place_clip_plane(ang_ray_frame *frame, const ang_clip_plane *plane, ang_vec3 centre_mm) {
+    if (!ang_clip_plane_given(plane)) return;
+    ang_vec3 diagonal = ang_mat4_direction(&frame->to_mm, ang_vec3_sub(frame->upper, frame->lower));
+    double rounding = 1e-9 * ang_vec3_length(diagonal);
+    ang_linear_form beyond = {ang_mat4_transposed_direction(&frame->to_mm, plane->normal),
+                              ang_vec3_dot(plane->normal, centre_mm) - plane->offset_mm};
+    frame->cuts = ang_linear_form_greatest(&beyond, frame->lower, frame->upper) > rounding;
+    if (!frame->cuts) return;
+    bool all = ang_linear_form_least(&beyond, frame->lower, frame->upper) > -rounding;
+    frame->beyond = all ? (ang_linear_form){.constant = 1} : beyond;
 }
 
 bool ang_ray_frame_make(const ang_volume *volume, const ang_scene *scene, ang_ray_frame *frame, ang_error *err) {
@@ -240,6 +274,7 @@ bool ang_ray_frame_make(const ang_volume *volume, const ang_scene *scene, ang_ra
 
     const ang_camera *camera = &scene->camera;
     ang_vec3 centre_mm = ang_mat4_point(&volume->affine, frame->centre);
+    place_clip_plane(frame, &scene->clip_plane, centre_mm);
     ang_vec3 eye = ang_vec3_sub(camera->eye, centre_mm);
     frame->perspective = camera->projection == ANG_PERSPECTIVE;
     /* The plane of p: through the box's centre, where p is exact; in perspective never nearer than the near plane. */
@@ -266,6 +301,18 @@ bool ang_ray_frame_make(const ang_volume *volume, const ang_scene *scene, ang_ra
     return true;
 }
 
+/* Cuts the ray's stretch at the clip plane. */
+static void cut_ray(const ang_ray_frame *frame, ang_ray *ray) {
+    double beyond = ang_linear_form_at(&frame->beyond, ray->origin);
+    double rate = ang_vec3_dot(frame->beyond.gradient, ray->direction);
+    if (rate < 0)
+        ray->enter = fmax(ray->enter, -beyond / rate);
+    else if (rate > 0)
+        ray->leave = fmin(ray->leave, -beyond / rate);
+    else if (beyond > 0)
+        ray->leave = -INFINITY;
+}
+
 ang_ray ang_ray_through(const ang_ray_frame *frame, double x, double y) {
     ang_ray ray;
     ray.origin = ang_vec3_along(ang_vec3_along(frame->origin, frame->step_x, x), frame->step_y, y);
@@ -288,5 +335,6 @@ ang_ray ang_ray_through(const ang_ray_frame *frame, double x, double y) {
     }
     ray.enter = enter;
     ray.leave = leave;
+    if (frame->cuts) cut_ray(frame, &ray);
     return ray;
 }

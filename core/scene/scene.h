@@ -4,7 +4,7 @@
 #define ANG_SCENE_SCENE_H
 
 #include "core/base/error.h"
-#include "core/math/vec.h"
+#include "core/math/linear_form.h"
 #include "core/transfer/transfer.h"
 #include "core/volume/volume.h"
 
@@ -70,7 +70,7 @@ typedef struct ang_sampling {
     int width, height;    /* pixels: the larger picture's size */
 } ang_sampling;
 
-/* An oblique half-space that the picture does without: what lies at dot(normal, p) > offset_mm is cut away. */
+/* A half-space that the picture does without: what lies at dot(normal, p) > offset_mm is cut away. */
 typedef struct ang_clip_plane {
     ang_vec3 normal;  /* unit, LPS; zero: there is no plane */
     double offset_mm; /* along the normal from the origin of LPS */
@@ -106,6 +106,11 @@ ang_scene ang_scene_subset(const ang_scene *scene, int stride, int first_x, int 
 /* "x0,x1,y0,y1,z0,z1" in mm from the first voxel, or each with % of the box. Refused with ANG_USAGE where empty or not
  * numbers; limited to the box. */
 bool ang_scene_clip_parse(const char *text, const ang_volume *volume, ang_scene *scene, ang_error *err);
+/* "NX,NY,NZ,OFFSET_MM" in LPS; the normal may have any length, the plane gets a unit one, and the offset is along that.
+ * Refused with ANG_USAGE where these are not four finite numbers or the normal is zero. */
+bool ang_clip_plane_parse(const char *text, ang_clip_plane *plane, ang_error *err);
+/* Whether there is one. */
+static inline bool ang_clip_plane_given(const ang_clip_plane *plane) { return ang_vec3_length(plane->normal) > 0; }
 /* Grey 0..1 of a HU value under the scene's window, linear (DICOM PS3.3 C.11.2.1.3.2 LINEAR_EXACT). */
 double ang_scene_grey(const ang_scene *scene, double hu);
 
@@ -121,6 +126,9 @@ typedef struct ang_ray_frame {
     bool perspective;
     double near_depth;        /* mm from the plane of p along the axis to the near plane (negative: towards the eye) */
     ang_vec3 lower, upper;    /* the clip box, index space about `centre` */
+    ang_linear_form beyond;   /* mm beyond the clip plane, of a place in index space about `centre`: what is positive is
+                                 cut away; zero where nothing of the clip box is */
+    bool cuts;                /* whether something of the clip box is; to less than 1e-9 of its diagonal nothing */
     ang_mat4 to_mm, to_index; /* the affine and its inverse */
 } ang_ray_frame;
 /* False with ANG_GEOMETRY where the affine is singular. */
@@ -130,8 +138,8 @@ typedef struct ang_ray {
     ang_vec3 origin;       /* index space about the box's centre, at t = 0 */
     ang_vec3 direction;    /* index units per mm */
     ang_vec3 direction_mm; /* unit, LPS */
-    double enter,
-        leave; /* mm; inside the clip box and beyond the near plane for enter < t < leave; none where enter >= leave */
+    double enter, leave; /* mm; in what the clip plane leaves of the clip box and beyond the near plane for enter < t <
+                            leave; none where enter >= leave */
 } ang_ray;
 /* The ray through picture coordinates (x, y); pixel (i, j) has x = i + 0.5, y = j + 0.5, j from the top. */
 ang_ray ang_ray_through(const ang_ray_frame *frame, double x, double y);

@@ -179,6 +179,12 @@ static const ang_selfcheck_case table[] = {
      .has_truth = true,
      .unless = is_truth,
      .run = ang_case_against_reference},
+    {.number = 28,
+     .name = "clip plane through corners, along faces",
+     .expected = "as in 1; of all: the background; of nothing: the picture without",
+     .allowed = "1e-5; exact",
+     .means = "Opened volumes are cut at another place than where the plane lies.",
+     .run = ang_case_clip_plane},
 };
 
 const ang_selfcheck_case *ang_selfcheck_cases(int *count) {

@@ -21,6 +21,8 @@ ang_case_run ang_case_transparent, ang_case_bricks, ang_case_bright_voxels, ang_
 ang_case_run ang_case_phong, ang_case_flat_and_padding, ang_case_sphere;
 /* proxies.c: polygons */
 ang_case_run ang_case_polygons;
+/* cuts.c: the clip plane */
+ang_case_run ang_case_clip_plane;
 /* orders.c: refinement */
 ang_case_run ang_case_grid_order, ang_case_pixel_order, ang_case_against_reference;
 

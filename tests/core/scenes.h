@@ -41,10 +41,11 @@ static inline ang_volume *sheared_volume(double (*value)(int, int, int)) {
     return volume;
 }
 
-enum { SCENES = 5 };
-/* Perspective, parallel along an axis, clipped, from inside, and from inside looking out beside a face. */
+enum { SCENES = 6 };
+/* Perspective, parallel along an axis, clipped, from inside, from inside looking out beside a face, and cut by an
+ * oblique plane through the middle. */
 static inline ang_scene make_scene(int which, const ang_volume *volume, const ang_transfer *transfer) {
-    static const char *const views[SCENES] = {"33,21,10", "left", "-140,-35", "20,5", "100,40"};
+    static const char *const views[SCENES] = {"33,21,10", "left", "-140,-35", "20,5", "100,40", "-50,30"};
     ang_scene scene = ang_scene_default(volume);
     ang_view view = ang_view_default;
     assert_true(ang_view_parse(views[which], &view, NULL));
@@ -58,6 +59,10 @@ static inline ang_scene make_scene(int which, const ang_volume *volume, const an
     if (which == 4) {
         scene.camera.eye = ang_vec3_along(ang_volume_centre(volume), scene.camera.forward, -21);
         scene.camera.fov_deg = 120;
+    }
+    if (which == 5) {
+        ang_vec3 normal = ang_vec3_unit((ang_vec3){0.8, -0.5, 0.6});
+        scene.clip_plane = (ang_clip_plane){normal, ang_vec3_dot(normal, ang_volume_centre(volume)) + 2.5};
     }
     scene.width = width;
     scene.height = height;

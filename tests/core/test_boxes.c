@@ -118,6 +118,11 @@ static void every_sample_has_one_owner_in_the_order_of_view(void **state) {
             s.cut.visibility = k & 2 ? &s.visibility : NULL;
             s.cut.to_leaves = k & 4;
             if (v == 1) assert_true(ang_scene_clip_parse("10%,90%,5%,80%,30%,75%", s.volume, &s.scene, NULL));
+            if (v == 2) {
+                ang_vec3 normal = ang_vec3_unit((ang_vec3){-0.4, 0.7, 0.5});
+                double middle = ang_vec3_dot(normal, ang_volume_centre(s.volume));
+                s.scene.clip_plane = (ang_clip_plane){normal, middle + 6};
+            }
             if (v == 4) {
                 s.scene.camera.eye = ang_vec3_along(ang_volume_centre(s.volume), s.scene.camera.forward, 2);
                 s.scene.camera.fov_deg = 100;

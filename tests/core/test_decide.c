@@ -27,6 +27,8 @@ static ang_plan_facts usual(ang_drawing drawing) {
                             .fragments = 1e7,
                             .most_apron = 17,
                             .gl = true,
+                            .has_clip_plane = true,
+                            .plane_cuts = true,
                             .software = true,
                             .gradients_fit = true,
                             .gradient_bytes = 4e8,
@@ -55,8 +57,9 @@ static bool spares(ang_plan_facts facts, ang_part part, const char *why) {
 static void what_a_scene_needs_is_used(void **state) {
     (void)state;
     ang_plan_facts rays = usual(ANG_DRAW_ENVELOPE), passes = usual(ANG_DRAW_PASSES), slices = usual(ANG_DRAW_SLICES);
-    static const ang_part common[] = {ANG_PART_GRADIENTS,   ANG_PART_EXPONENTIAL, ANG_PART_COLOUR, ANG_PART_ROUNDING,
-                                      ANG_PART_TERMINATION, ANG_PART_SKIPPING,    ANG_PART_REDRAW, ANG_PART_GL};
+    static const ang_part common[] = {ANG_PART_GRADIENTS, ANG_PART_EXPONENTIAL, ANG_PART_COLOUR,
+                                      ANG_PART_ROUNDING,  ANG_PART_TERMINATION, ANG_PART_SKIPPING,
+                                      ANG_PART_REDRAW,    ANG_PART_GL,          ANG_PART_CLIP_PLANE};
     for (size_t i = 0; i < sizeof common / sizeof *common; i++) {
         assert_true(used(&rays, common[i]));
         assert_true(used(&passes, common[i]));
@@ -92,6 +95,10 @@ static void each_part_is_left_out_for_its_reason(void **state) {
     assert_true(used(&f, ANG_PART_SLABS));
     assert_true(used(&f, ANG_PART_BORDER));
     assert_false(used(&f, ANG_PART_HULL));
+    f.plane_cuts = false;
+    assert_true(spares(f, ANG_PART_CLIP_PLANE, "nothing of the box"));
+    f.has_clip_plane = false;
+    assert_true(spares(f, ANG_PART_CLIP_PLANE, "has none"));
     f.same_as_before = true;
     assert_true(spares(f, ANG_PART_REDRAW, "nothing has changed"));
 

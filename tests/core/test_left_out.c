@@ -98,7 +98,7 @@ static void forced_parts_change_nothing(void **state) {
     open_gl(state);
     enum {
         COMMON = 1u << ANG_PART_GRADIENTS | 1u << ANG_PART_EXPONENTIAL | 1u << ANG_PART_COLOUR |
-                 1u << ANG_PART_ROUNDING | 1u << ANG_PART_TERMINATION
+                 1u << ANG_PART_ROUNDING | 1u << ANG_PART_TERMINATION | 1u << ANG_PART_CLIP_PLANE
     };
     static const struct {
         const ang_method *method;

@@ -121,6 +121,11 @@ static void check_method(const bench *on) {
     assert_true(ang_scene_clip_parse("20%,90%,10%,80%,30%,75%", on->volume, &clipped, NULL));
     check_scene(on, &clipped, "clipped");
 
+    ang_scene cut = scene;
+    assert_true(ang_clip_plane_parse("0.8,-0.5,0.6,0", &cut.clip_plane, NULL));
+    cut.clip_plane.offset_mm = ang_vec3_dot(cut.clip_plane.normal, ang_volume_centre(on->volume)) + 1.5;
+    check_scene(on, &cut, "cut by a plane");
+
     ang_scene inside = scene;
     inside.camera.eye = ang_vec3_along(ang_volume_centre(on->volume), inside.camera.forward, 1.5);
     inside.camera.fov_deg = 80;

@@ -67,6 +67,9 @@ static const trial trials[] = {
      .phong = true,
      .fresh = true},
     {.part = ANG_PART_SLABS, .method = &ang_method_raycast, .scene = "vessels, first picture", .fresh = true},
+    {.part = ANG_PART_CLIP_PLANE, .method = &ang_method_singlepass, .scene = "vessels, no shading"},
+    {.part = ANG_PART_CLIP_PLANE, .method = &ang_method_envelope, .scene = "vessels, no shading"},
+    {.part = ANG_PART_CLIP_PLANE, .method = &ang_method_slicing, .scene = "vessels, no shading"},
     {.part = ANG_PART_REDRAW, .method = &ang_method_envelope, .scene = "vessels, shaded, again", .phong = true},
 };
 
