@@ -45,7 +45,7 @@ enum { SCENES = 6 };
 /* Perspective, parallel along an axis, clipped, from inside, from inside looking out beside a face, and cut by an
  * oblique plane through the middle. */
 static inline ang_scene make_scene(int which, const ang_volume *volume, const ang_transfer *transfer) {
-    static const char *const views[SCENES] = {"33,21,10", "left", "-140,-35", "20,5", "100,40", "-50,30"};
+    static const char *const views[SCENES] = {"33,21,10", "left", "-140,-35", "20,5", "100,40", "130,20"};
     ang_scene scene = ang_scene_default(volume);
     ang_view view = ang_view_default;
     assert_true(ang_view_parse(views[which], &view, NULL));
