@@ -28,6 +28,8 @@ void ang_scene_explain(ang_plan *plan, const ang_scene *scene, const ang_volume 
         ang_plan_use(plan, "transfer function");
     else
         ang_plan_leave_out(plan, "transfer function", "this mode shows values through the window");
+    const ang_decision *plane = &decisions->part[ANG_PART_CLIP_PLANE];
+    if (plane->used && !plane->why) ang_plan_use(plan, "clip plane: rays are cut to the half-space before it");
     if (ang_scene_needs_phong(scene)) ang_plan_use(plan, "gradients by central differences, Phong");
     if (ang_scene_needs_weight(scene, volume))
         ang_plan_use(plan, "weights that leave padding out of the mean");

@@ -54,7 +54,7 @@ static void compose_slices(sources *to, bool faces, const ang_slice_recipe *reci
     bool counting = recipe->counting;
     ang_slice_geometry_parts(recipe->options->proxy, group, &to->vertex);
     if (ang_plan_uses(recipe->plan[0], ANG_PART_TERMINATION)) ANG_SHADER_ADD(&to->fragment, early);
-    ang_parts_ray(&to->fragment, recipe->scene, recipe->plan[faces], true);
+    ang_parts_ray(&to->fragment, recipe->scene, recipe->plan[faces], faces);
     ang_slice_planes_parts(group, &to->fragment);
     ANG_SHADER_ADD(&to->fragment, slice_sample);
     if (faces)

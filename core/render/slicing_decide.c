@@ -190,10 +190,10 @@ static void explain_boxes(const ang_renderer *renderer, const ang_slicing *s, co
                  boxes->leaves_total);
     if (boxes->leaves_total > boxes->leaves_drawn)
         ang_plan_leave_out(plan, "parts of the volume",
-                           "%zu of %zu leaves of the octree: %s%sthey lie outside the "
-                           "picture or the clip box",
+                           "%zu of %zu leaves of the octree: %s%sthey lie outside the picture%s",
                            boxes->leaves_total - boxes->leaves_drawn, boxes->leaves_total,
-                           s->skips ? ang_visibility_reason(s->visibility.mode) : "", s->skips ? ", or " : "");
+                           s->skips ? ang_visibility_reason(s->visibility.mode) : "", s->skips ? ", or " : "",
+                           s->frame.cuts ? ", outside the clip box or beyond the clip plane" : " or the clip box");
 }
 
 bool ang_slicing_explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,

@@ -59,6 +59,8 @@ static void usage_errors_give_two(void **state) {
     assert_non_null(strstr(output, "no-such.json"));
     expect(2, "render " PHANTOM " -o " TMP "/x.png --no-such-option 2>&1");
     expect(2, "render " PHANTOM " -o " TMP "/x.png --clip 1,1,2,2,3,3 2>&1");
+    expect(2, "render " PHANTOM " -o " TMP "/x.png --clip-plane 0,0,0,5 2>&1");
+    assert_non_null(strstr(output, "--clip-plane 0,0,0,5: give NX,NY,NZ,OFFSET_MM"));
     expect(2, "render " PHANTOM " -o " TMP "/x.jpeg2 2>&1");
     assert_false(exists(TMP "/x.png"));
 }
@@ -326,7 +328,8 @@ static void the_json_says_what_picture_it_was(void **state) {
                   "/ct-mip.json > " TMP "/doe-john/secret.json");
     expect(0, "render " PHANTOM " -o " TMP "/a.png --preset " TMP
               "/doe-john/secret.json --size 40x30 --shift 10 --iso 250 "
-              "--view 30,20,10 --zoom 1.5 --projection parallel --fov 40 --clip 0%,50%,0%,100%,0%,100% "
+              "--view 30,20,10 --zoom 1.5 --projection parallel --fov 40 --clip 0%,50%,0%,100%,0%,100% --clip-plane "
+              "0,3,-4,2.5 "
               "--background 1,0.5,0 --step 2 --termination 0.9 --json - 2>/dev/null");
     assert_null(strstr(output, "doe-john"));
     assert_null(strstr(output, "secret"));
@@ -346,6 +349,9 @@ static void the_json_says_what_picture_it_was(void **state) {
     const cJSON *clip = cJSON_GetObjectItemCaseSensitive(picture, "clip");
     assert_true(fabs(at(clip, "lower", 0)) < 1e-9 && fabs(at(clip, "upper", 0) - 31.5) < 1e-9);
     assert_true(fabs(at(clip, "upper", 2) - 23) < 1e-9);
+    const cJSON *plane = cJSON_GetObjectItemCaseSensitive(picture, "clip_plane");
+    assert_true(fabs(at(plane, "normal", 1) - 0.6) < 1e-12 && fabs(at(plane, "normal", 2) + 0.8) < 1e-12);
+    assert_true(at(plane, "offset_mm", -1) == 2.5);
     assert_true(at(picture, "background", 1) == 0.5 && at(picture, "background", 3) == 1);
     assert_true(at(picture, "step_voxels", -1) == 2 && at(picture, "termination", -1) == 0.9);
     cJSON_Delete(json);
