@@ -82,6 +82,7 @@ static void show_study(ang_viewer *viewer, const ang_study *study, const char *w
     memset(document, 0, sizeof *document);
     document->view = ang_viewer_first_view;
     document->iso_hu = 300;
+    ang_volume_box(study->volume, &document->crop_lower, &document->crop_upper);
     ang_transfer_editor_start(viewer);
     ang_error err = {0};
     const ang_preset *preset = first_preset(viewer, wanted_preset, &err);

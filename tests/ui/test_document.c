@@ -126,6 +126,51 @@ static void renderings_are_told_apart(void **state) {
     assert_false(ang_document_same_rendering(&document, &other));
 }
 
+static void what_cuts_the_volume_shows_only_while_it_does(void **state) {
+    (void)state;
+    ang_document document, other;
+    start(&document);
+    other = document;
+    other.crop_upper = (ang_vec3){9, 9, 9};
+    assert_true(ang_document_same_rendering(&document, &other)); /* the box is off in both */
+    document.crop = other.crop = true;
+    assert_false(ang_document_same_rendering(&document, &other));
+    other.crop_upper = document.crop_upper;
+    assert_true(ang_document_same_rendering(&document, &other));
+    other.crop = false;
+    assert_false(ang_document_same_rendering(&document, &other));
+    other = document;
+    other.clip = (ang_clip_plane){{0, 0, 1}, 0};
+    assert_false(ang_document_same_rendering(&document, &other));
+    document.clip = (ang_clip_plane){{0, 0, 1}, 1};
+    assert_false(ang_document_same_rendering(&document, &other));
+}
+
+/* Also a box that is off is a step that can be taken back. */
+static void crop_and_clip_are_undone(void **state) {
+    (void)state;
+    ang_history history = {0};
+    ang_document document;
+    start(&document);
+    ang_history_note(&history, &document, 0);
+    document.crop_lower.y = 3;
+    ang_history_note(&history, &document, 1);
+    document.crop = true;
+    ang_history_note(&history, &document, 2);
+    document.clip = (ang_clip_plane){{1, 0, 0}, 7};
+    ang_history_note(&history, &document, 3);
+    assert_true(ang_history_undo(&history, &document));
+    assert_close(document.clip.normal.x, 0, 0);
+    assert_true(document.crop);
+    assert_true(ang_history_undo(&history, &document));
+    assert_false(document.crop);
+    assert_close(document.crop_lower.y, 3, 0);
+    assert_true(ang_history_undo(&history, &document));
+    assert_close(document.crop_lower.y, 0, 0);
+    assert_false(ang_history_undo(&history, &document));
+    ang_history_clear(&history);
+}
+
 static void undo_and_redo_walk_the_states(void **state) {
     (void)state;
     ang_history history = {0};
@@ -204,10 +249,16 @@ static void old_states_are_forgotten_not_new_ones(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(presets_come_over_whole),           cmocka_unit_test(a_new_point_changes_nothing_yet),
-        cmocka_unit_test(points_keep_their_order_and_range), cmocka_unit_test(bending_moves_and_widens_what_shows),
-        cmocka_unit_test(renderings_are_told_apart),         cmocka_unit_test(undo_and_redo_walk_the_states),
-        cmocka_unit_test(one_gesture_is_one_step),           cmocka_unit_test(old_states_are_forgotten_not_new_ones),
+        cmocka_unit_test(what_cuts_the_volume_shows_only_while_it_does),
+        cmocka_unit_test(crop_and_clip_are_undone),
+        cmocka_unit_test(presets_come_over_whole),
+        cmocka_unit_test(a_new_point_changes_nothing_yet),
+        cmocka_unit_test(points_keep_their_order_and_range),
+        cmocka_unit_test(bending_moves_and_widens_what_shows),
+        cmocka_unit_test(renderings_are_told_apart),
+        cmocka_unit_test(undo_and_redo_walk_the_states),
+        cmocka_unit_test(one_gesture_is_one_step),
+        cmocka_unit_test(old_states_are_forgotten_not_new_ones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,6 +29,11 @@ ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_document *documen
     scene.window_centre = document->window_centre;
     scene.window_width = document->window_width;
     scene.transfer = transfer;
+    if (document->crop) {
+        scene.clip_lower = document->crop_lower;
+        scene.clip_upper = document->crop_upper;
+    }
+    scene.clip_plane = document->clip;
     return scene;
 }
 

@@ -136,9 +136,22 @@ static bool same_window(const ang_document *a, const ang_document *b) {
     return same_numbers(&a->window_centre, &b->window_centre, 1) && same_numbers(&a->window_width, &b->window_width, 1);
 }
 
+static bool same_vector(ang_vec3 a, ang_vec3 b) {
+    return same_numbers((double[]){a.x, a.y, a.z}, (double[]){b.x, b.y, b.z}, 3);
+}
+
+static bool same_box(const ang_document *a, const ang_document *b) {
+    return same_vector(a->crop_lower, b->crop_lower) && same_vector(a->crop_upper, b->crop_upper);
+}
+
+static bool same_plane(const ang_document *a, const ang_document *b) {
+    return same_vector(a->clip.normal, b->clip.normal) && same_numbers(&a->clip.offset_mm, &b->clip.offset_mm, 1);
+}
+
 bool ang_document_same_rendering(const ang_document *a, const ang_document *b) {
     bool coloured = a->mode == ANG_MODE_DVR || a->mode == ANG_MODE_ISO;
     return same_style(a, b) && same_direction(&a->view, &b->view) && same_zoom(&a->view, &b->view) &&
+           a->crop == b->crop && (!a->crop || same_box(a, b)) && same_plane(a, b) &&
            (coloured ? same_transfer(a, b) : same_window(a, b)) &&
            (a->mode != ANG_MODE_ISO || same_numbers(&a->iso_hu, &b->iso_hu, 1));
 }
@@ -149,6 +162,7 @@ typedef enum difference { SAME, SAME_BUT_ZOOM, OTHER } difference;
 static difference compare(const ang_document *a, const ang_document *b) {
     bool rest = same_transfer(a, b) && same_style(a, b) && same_window(a, b) && same_direction(&a->view, &b->view) &&
                 strcmp(a->preset, b->preset) == 0 && a->edited == b->edited && a->slab == b->slab &&
+                a->crop == b->crop && same_box(a, b) && same_plane(a, b) &&
                 same_numbers((double[]){a->iso_hu, a->slab_mm, a->shift_hu, a->stretch},
                              (double[]){b->iso_hu, b->slab_mm, b->shift_hu, b->stretch}, 4);
     return !rest ? OTHER : same_zoom(&a->view, &b->view) ? SAME : SAME_BUT_ZOOM;

@@ -23,7 +23,10 @@ typedef struct ang_document {
     ang_view view;                      /* the 3D camera */
     double window_centre, window_width; /* HU, width > 0: slices, and 3D in modes of values */
     ang_slab slab;
-    double slab_mm; /* 0: none */
+    double slab_mm;                  /* 0: none */
+    bool crop;                       /* the 3D picture shows the crop box alone */
+    ang_vec3 crop_lower, crop_upper; /* the crop box, kept while it is off: voxel index, within ang_volume_box */
+    ang_clip_plane clip;             /* of the 3D picture; a zero normal: none */
 } ang_document;
 
 /* Takes over everything of a preset but the window, which it takes where the preset shows values (mip, minip, mean).
