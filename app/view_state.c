@@ -4,6 +4,7 @@
 #include "io/json.h"
 #include "io/preset.h"
 #include "io/report.h"
+#include "ui/state/crop_geometry.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,12 +17,33 @@ static void add_numbers(cJSON *object, const char *name, const double *values, i
 
 /* Enough digits to come back as the same number. */
 static bool add_option_numbers(ang_state *state, const char *option, const double *values, int count, ang_error *err) {
-    char text[160], number[40];
+    char text[256], number[40];
     int used = 0;
     for (int i = 0; i < count; i++)
         used += snprintf(text + used, sizeof text - (size_t)used, "%s%s", i > 0 ? "," : "",
                          ang_json_number_text(values[i], number));
     return ang_state_add_option(state, option, text, err);
+}
+
+/* Millimetres from the first voxel which `--clip` takes back to this index, to the last digit where there are such. */
+static double clip_mm(double index, double spacing) {
+    double mm = index * spacing;
+    if (mm / spacing < index) mm = nextafter(mm, INFINITY);
+    if (mm / spacing > index) mm = nextafter(mm, -INFINITY);
+    return mm;
+}
+
+/* What cuts the picture. */
+static bool add_cutting(const ang_viewer_state *shown, ang_state *state, ang_error *err) {
+    const ang_document *document = shown->document;
+    const ang_clip_plane *clip = &document->clip;
+    double mm[6], plane[4] = {clip->normal.x, clip->normal.y, clip->normal.z, clip->offset_mm};
+    for (int i = 0; i < 6; i++) {
+        ang_vec3 corner = i % 2 ? document->crop_upper : document->crop_lower;
+        mm[i] = clip_mm(ang_vec3_at(corner, i / 2), ang_volume_spacing(shown->study->volume, i / 2));
+    }
+    return (!document->crop || add_option_numbers(state, "clip", mm, 6, err)) &&
+           (!ang_clip_plane_given(clip) || add_option_numbers(state, "clip-plane", plane, 4, err));
 }
 
 static bool add_render_options(const ang_viewer_state *shown, ang_state *state, ang_error *err) {
@@ -35,7 +57,8 @@ static bool add_render_options(const ang_viewer_state *shown, ang_state *state, 
            add_option_numbers(state, "zoom", &view->zoom, 1, err) &&
            ang_state_add_option(state, "projection", ang_projection_name(view->projection), err) &&
            add_option_numbers(state, "fov", &view->fov_deg, 1, err) &&
-           (!shown->method || ang_state_add_option(state, "method", shown->method, err));
+           (!shown->method || ang_state_add_option(state, "method", shown->method, err)) &&
+           add_cutting(shown, state, err);
 }
 
 char *ang_view_preset_print(const ang_document *document, ang_error *err) {
@@ -80,6 +103,8 @@ static void copy_window(const ang_viewer_state *shown, ang_state *state) {
     state->slab = document->slab;
     state->slab_mm = document->slab_mm;
     state->crosshair = shown->crosshair;
+    state->crop_lower = document->crop_lower;
+    state->crop_upper = document->crop_upper;
     for (int i = 0; i < ANG_STATE_SLICES; i++) {
         state->slice[i].zoom = shown->slice[i].zoom;
         memcpy(state->slice[i].pan_mm, shown->slice[i].pan_mm, sizeof state->slice[i].pan_mm);
@@ -107,6 +132,20 @@ bool ang_view_state_of(const ang_viewer_state *shown, const ang_load_options *da
     return made;
 }
 
+/* The crop box that was kept while it was off; where it is the picture's own, that to the last digit. */
+static void take_crop_box(const ang_state *state, const ang_study *study, ang_document *document) {
+    ang_crop_box box, shown = ang_crop_box_of(document);
+    if (!isfinite(state->crop_lower.x)) return;
+    ang_volume_box(study->volume, &box.lower, &box.upper);
+    bool same = true;
+    for (int face = 0; face < ANG_CROP_FACES; face++) {
+        ang_vec3 corner = face % 2 ? state->crop_upper : state->crop_lower;
+        ang_crop_face_move(&box, study->volume, face, ang_vec3_at(corner, face / 2));
+        same = same && fabs(ang_crop_face_at(&box, face) - ang_crop_face_at(&shown, face)) < 1e-9;
+    }
+    if (same || !document->crop) ang_crop_box_set(document, &box);
+}
+
 /* The camera and whatever else options of a picture say. */
 static bool take_picture(const ang_state *state, const char *file, const ang_study *study, ang_document *document,
                          ang_error *err) {
@@ -124,6 +163,11 @@ static bool take_picture(const ang_state *state, const char *file, const ang_stu
         document->view = picture.view;
         document->mode = picture.scene.mode;
         document->shading = picture.scene.shading;
+        document->crop = options.clip != NULL;
+        document->crop_lower = picture.scene.clip_lower;
+        document->crop_upper = picture.scene.clip_upper;
+        document->clip = picture.scene.clip_plane;
+        take_crop_box(state, study, document);
     }
     picture.preset = NULL; /* the state's */
     ang_picture_clear(&picture);
@@ -190,6 +234,12 @@ static void add_panes(cJSON *live, const ang_viewer_state *shown) {
     cJSON_AddStringToObject(live, "hovered", shown->hovered < ANG_PANES ? pane_names[shown->hovered] : "");
 }
 
+static void add_clip_plane(cJSON *live, const ang_clip_plane *clip) {
+    cJSON *plane = cJSON_AddObjectToObject(live, "clip_plane");
+    add_numbers(plane, "normal", (double[]){clip->normal.x, clip->normal.y, clip->normal.z}, 3);
+    ang_json_add_number(plane, "offset_mm", clip->offset_mm);
+}
+
 static void add_live(cJSON *live, const ang_viewer_state *shown) {
     add_slices(live, shown);
     cJSON *editor = cJSON_AddObjectToObject(live, "editor");
@@ -197,6 +247,7 @@ static void add_live(cJSON *live, const ang_viewer_state *shown) {
     add_numbers(editor, "plot", (double[]){plot->x, plot->y, plot->width, plot->height}, 4);
     add_numbers(editor, "hu", (double[]){shown->editor_low, shown->editor_high}, 2);
     cJSON_AddNumberToObject(editor, "point", shown->point);
+    add_clip_plane(live, &shown->document->clip);
     ang_json_add_number(live, "azimuth_deg", shown->document->view.azimuth_deg);
     ang_json_add_number(live, "elevation_deg", shown->document->view.elevation_deg);
     cJSON_AddBoolToObject(live, "refined", shown->refined);

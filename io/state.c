@@ -14,6 +14,8 @@ const ang_state ang_state_default = {.stretch = 1,
                                      .window_centre = NAN,
                                      .window_width = NAN,
                                      .crosshair = {NAN, NAN, NAN},
+                                     .crop_lower = {NAN, NAN, NAN},
+                                     .crop_upper = {NAN, NAN, NAN},
                                      .slice = {{.zoom = 1}, {.zoom = 1}, {.zoom = 1}},
                                      .corner_text = true,
                                      .crosshair_lines = true};
@@ -102,6 +104,12 @@ static void add_window(cJSON *root, const ang_state *state) {
     }
     const ang_vec3 *at = &state->crosshair;
     if (isfinite(at->x)) add_numbers(root, "crosshair_mm", (double[]){at->x, at->y, at->z}, 3);
+    const ang_vec3 *lower = &state->crop_lower, *upper = &state->crop_upper;
+    if (isfinite(lower->x)) {
+        cJSON *crop = cJSON_AddObjectToObject(root, "crop");
+        add_numbers(crop, "lower", (double[]){lower->x, lower->y, lower->z}, 3);
+        add_numbers(crop, "upper", (double[]){upper->x, upper->y, upper->z}, 3);
+    }
     for (int i = 0; i < ANG_STATE_SLICES; i++) {
         cJSON *slice = cJSON_AddObjectToObject(root, names[i]);
         add_number(slice, "zoom", state->slice[i].zoom);

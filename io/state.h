@@ -41,6 +41,8 @@ typedef struct ang_state {
     ang_slab slab;
     double slab_mm;     /* 0: none */
     ang_vec3 crosshair; /* LPS mm; all three NaN where open */
+    ang_vec3 crop_lower, crop_upper; /* the crop box, also while the picture is not cropped (it is by an option "clip"):
+                                        voxel index; all NaN where open */
     ang_state_slice slice[ANG_STATE_SLICES];
     char maximised[16];                /* the pane that is large; "": none */
     char tool[16];                     /* of the left button */

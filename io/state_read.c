@@ -13,14 +13,15 @@
 static const char *const state_fields[] = {
     "angioscope_state", "program",  "input",  "preset",       "render",   "window",          "axial",
     "coronal",          "sagittal", "slab",   "crosshair_mm", "shift_hu", "preset_changed",  "stretch",
-    "maximised",        "tool",     "method", "corner_text",  "live",     "crosshair_lines", NULL};
+    "maximised",        "tool",     "method", "corner_text",  "live",     "crosshair_lines", "crop", NULL};
 static const char *const input_fields[] = {"path", "name", "raw_dims", "raw_type", "raw_spacing", NULL};
 static const char *const window_fields[] = {"centre", "width", NULL};
+static const char *const crop_fields[] = {"lower", "upper", NULL};
 static const char *const slab_fields[] = {"mm", "mode", NULL};
 static const char *const slice_names[ANG_STATE_SLICES] = {"axial", "coronal", "sagittal"};
 static const char *const slice_fields[] = {"zoom", "pan_mm", NULL};
 
-static const double most_mm = 1e7, most_hu = ANG_TRANSFER_HU_LIMIT, least_width = 1e-6;
+static const double most_mm = 1e7, most_hu = ANG_TRANSFER_HU_LIMIT, least_width = 1e-6, most_index = 1e6;
 
 /* One file while it is read. */
 typedef struct reader {
@@ -184,6 +185,20 @@ static bool read_slab(reader *r) {
     return true;
 }
 
+static bool read_crop(reader *r) {
+    const cJSON *crop;
+    double lower[3] = {NAN, NAN, NAN}, upper[3] = {NAN, NAN, NAN};
+    if (!open_object(r, r->json.root, "", "crop", crop_fields, &crop)) return false;
+    if (crop && cJSON_GetArraySize(crop) != 2)
+        return ang_json_fail(&r->json, "crop", r->err, "crop must have lower and upper");
+    if (!read_numbers(r, crop, "crop", "lower", 3, most_index, lower) ||
+        !read_numbers(r, crop, "crop", "upper", 3, most_index, upper))
+        return false;
+    r->state->crop_lower = (ang_vec3){lower[0], lower[1], lower[2]};
+    r->state->crop_upper = (ang_vec3){upper[0], upper[1], upper[2]};
+    return true;
+}
+
 static bool read_window(reader *r) {
     const cJSON *root = r->json.root, *window;
     ang_state *state = r->state;
@@ -191,7 +206,7 @@ static bool read_window(reader *r) {
     if (!open_object(r, root, "", "window", window_fields, &window) ||
         !read_number(r, window, "window", "centre", -most_hu, most_hu, &state->window_centre) ||
         !read_number(r, window, "window", "width", least_width, INFINITY, &state->window_width) ||
-        !read_numbers(r, root, "", "crosshair_mm", 3, most_mm, at) || !read_slices(r) || !read_slab(r))
+        !read_numbers(r, root, "", "crosshair_mm", 3, most_mm, at) || !read_slices(r) || !read_slab(r) || !read_crop(r))
         return false;
     state->crosshair = (ang_vec3){at[0], at[1], at[2]};
     return read_flag(r, "preset_changed", &state->preset_changed) &&

@@ -92,10 +92,28 @@ static void toggle_projection(ang_viewer *viewer, int argument) {
     ang_view *view = &viewer->document.view;
     view->projection = view->projection == ANG_PARALLEL ? ANG_PERSPECTIVE : ANG_PARALLEL;
 }
+static void toggle_turning(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->turns_about_crosshair = !viewer->turns_about_crosshair;
+}
+static bool turns_about_crosshair(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->turns_about_crosshair;
+}
 static bool is_parallel(const ang_viewer *viewer, int argument) {
     (void)argument;
     return viewer->document.view.projection == ANG_PARALLEL;
 }
+
+static bool is_cropped(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->document.crop;
+}
+static bool is_clipped(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return ang_clip_plane_on(&viewer->document.clip);
+}
+static bool has_clip_plane(const ang_viewer *viewer) { return viewer->ready && is_clipped(viewer, 0); }
 
 static void choose_tool(ang_viewer *viewer, int tool) { viewer->tool = (ang_tool)tool; }
 static bool is_tool(const ang_viewer *viewer, int tool) { return viewer->tool == (ang_tool)tool; }
@@ -192,7 +210,7 @@ static const ang_action actions[] = {
     {"File", "Save state", "all that is shown, and where its data are: to go on later, and for render --state", 'S',
      C | A, save_state, 0, false, is_ready, NULL},
     {"File", "Quit", NULL, 'Q', C, quit, 0, true, NULL, NULL},
-    {"Edit", "Undo", "presets, points, windows, camera", 'Z', C, undo, 0, false, can_undo, NULL},
+    {"Edit", "Undo", "presets, points, windows, camera, crop", 'Z', C, undo, 0, false, can_undo, NULL},
     {"Edit", "Redo", NULL, 'Z', C | S, redo, 0, false, can_redo, NULL},
     {"Tools", "Window", "left drag in a slice: across width, up and down centre", 'W', 0, choose_tool, ANG_TOOL_WINDOW,
      false, is_ready, is_tool},
@@ -200,6 +218,14 @@ static const ang_action actions[] = {
      is_tool},
     {"Tools", "Pan", "also middle drag, or Space and left drag", 'P', 0, choose_tool, ANG_TOOL_PAN, false, is_ready,
      is_tool},
+    {"Tools", "Crop", "drag the handles of the crop box and the clip plane, in 3D and in slices", 'X', 0, choose_tool,
+     ANG_TOOL_CROP, false, is_ready, is_tool},
+    {"Tools", "Crop box on", "off keeps the box", 'X', A, ang_crop_toggle, 0, true, is_ready, is_cropped},
+    {"Tools", "Whole volume", "the crop box as large as it can be", 'X', C, ang_crop_reset, 0, false, is_ready, NULL},
+    {"Tools", "Clip plane facing me", "through the crosshair; cuts away what is before it", 'K', 0,
+     ang_clip_face_viewer, 0, true, is_ready, NULL},
+    {"Tools", "Clip plane's other side", NULL, 'K', S, ang_clip_flip, 0, false, has_clip_plane, NULL},
+    {"Tools", "Clip plane on", NULL, 'K', A, ang_clip_toggle, 0, false, is_ready, is_clipped},
     {"Tools", "Crosshair to the centre", NULL, ANG_KEY_HOME, 0, centre_crosshair, 0, true, is_ready, NULL},
     {"View", "Reset view", "of the pane under the pointer, else of all", 'R', 0, reset_view, 0, false, is_ready, NULL},
     {"View", "Pictures of the presets", NULL, 'B', 0, browse, 0, false, is_ready, NULL},
@@ -211,6 +237,8 @@ static const ang_action actions[] = {
     {"View", "Superior", NULL, 'S', A, standard_view, 4, false, is_ready, NULL},
     {"View", "Inferior", NULL, 'I', A, standard_view, 5, false, is_ready, NULL},
     {"View", "Parallel projection", NULL, 'O', 0, toggle_projection, 0, true, is_ready, is_parallel},
+    {"View", "Turn about the crosshair", "else about the volume's centre", 'V', 0, toggle_turning, 0, false, is_ready,
+     turns_about_crosshair},
     {"View", "Crosshair lines", NULL, 'X', S, toggle_crosshair, 0, true, is_ready, shows_crosshair},
     {"View", "Text on the panes", NULL, 'T', 0, toggle_text, 0, false, is_ready, shows_text},
     {"View", "Full screen", NULL, ANG_KEY_F11, 0, full_screen, 0, true, NULL, NULL},

@@ -60,11 +60,17 @@ double ang_menus(ang_viewer *viewer) {
 static const struct {
     const char *hand, *does;
 } hands[] = {
-    {"Left drag", "slice: the tool; 3D: turn"},   {"Click", "crosshair here; 3D: to what shows first"},
-    {"Middle drag, Space + left drag", "pan"},    {"Right drag, Ctrl + wheel", "zoom about the pointer"},
-    {"Wheel", "slice: scroll; 3D: zoom"},         {"Shift + drag in 3D", "up, down: shift the preset; across: stretch"},
-    {"Double click", "the pane large, and back"}, {"Shift in a drag of numbers", "ten times finer"},
-    {"Esc", "cancel a drag, loading, a window"},  {"1 ... 9", "windows; over the 3D pane: presets"},
+    {"Left drag", "slice: the tool; 3D: turn"},
+    {"Click", "crosshair here; 3D: to what shows first"},
+    {"Middle drag, Space + left drag", "pan"},
+    {"Right drag, Ctrl + wheel", "zoom about the pointer"},
+    {"Wheel", "slice: scroll; 3D: zoom"},
+    {"Shift + drag in 3D", "up, down: shift the preset; across: stretch"},
+    {"Ctrl + Shift + drag in 3D", "up, down: overall opacity"},
+    {"Double click", "the pane large, and back"},
+    {"Shift in a drag of numbers", "ten times finer"},
+    {"Esc", "cancel a drag, loading, a window"},
+    {"1 ... 9", "windows; over the 3D pane: presets"},
 };
 
 static void help_cells(ang_gui *gui, const char *left, const char *right) {

@@ -99,6 +99,7 @@ static void show_study(ang_viewer *viewer, const ang_study *study, const char *w
     }
     ang_viewer_point_at(viewer, ang_volume_centre(study->volume));
     ang_session_apply(viewer);
+    viewer->cutting.pivot = viewer->crosshair;
     ang_history_note(&viewer->history, document, 0);
 }
 

@@ -14,7 +14,7 @@ static const double message_seconds = 6;
 enum { settling_frames = 2 };
 
 const char *ang_tool_name(ang_tool tool) {
-    static const char *const names[ANG_TOOLS] = {"window", "crosshair", "pan"};
+    static const char *const names[ANG_TOOLS] = {"window", "crosshair", "pan", "crop"};
     return names[tool];
 }
 

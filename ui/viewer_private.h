@@ -5,18 +5,21 @@
 #include "core/volume/histogram.h"
 #include "ui/gui.h"
 #include "ui/loading.h"
+#include "ui/panes/cutting.h"
 #include "ui/viewer.h"
 
 /* Colours of the panes (3D Slicer's), and what is written on pictures. */
 #define ANG_INK_TEXT   ANG_INK(224, 224, 224, 255)
 #define ANG_INK_DIM    ANG_INK(150, 150, 150, 255)
 #define ANG_INK_ACCENT ANG_INK(69, 153, 219, 255)
+#define ANG_INK_CROP   ANG_INK(94, 196, 255, 255)
+#define ANG_INK_CLIP   ANG_INK(255, 178, 66, 255)
 #define ANG_INK_BORDER ANG_INK(56, 56, 56, 255)
 ang_ink ang_pane_ink(ang_pane pane, unsigned alpha);
 
 enum { ANG_THUMBNAILS = 128 }; /* the most presets that are shown */
 
-typedef enum ang_tool { ANG_TOOL_WINDOW, ANG_TOOL_CROSSHAIR, ANG_TOOL_PAN, ANG_TOOLS } ang_tool;
+typedef enum ang_tool { ANG_TOOL_WINDOW, ANG_TOOL_CROSSHAIR, ANG_TOOL_PAN, ANG_TOOL_CROP, ANG_TOOLS } ang_tool;
 const char *ang_tool_name(ang_tool tool);
 
 /* A slice's picture, kept until what it shows changes. */
@@ -58,7 +61,8 @@ typedef struct ang_gesture {
     ang_document before;
     ang_vec3 crosshair;
     ang_slice_view view;
-    bool bends; /* the preset is shifted and stretched */
+    bool bends;       /* the preset is shifted and stretched */
+    bool strengthens; /* its opacity is */
     bool cancelled;
 } ang_gesture;
 
@@ -90,6 +94,8 @@ typedef struct ang_viewer {
     double hovered_hu; /* NaN: none */
     ang_vec3 hovered_mm;
     ang_gesture gesture;
+    ang_cutting cutting;
+    bool turns_about_crosshair; /* the hand on the 3D picture, else about the volume's centre */
 
     ang_paint_texture thumbnail[ANG_THUMBNAILS]; /* of the presets, in the panel's order */
     int thumbnails;                              /* made so far */
@@ -182,6 +188,7 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect);
 /* messages.c, panel.c, transfer_editor.c */
 void ang_messages(ang_viewer *viewer);
 void ang_panel(ang_viewer *viewer, ang_rect rect);
+void ang_cutting_panel(ang_viewer *viewer); /* cutting_panel.c */
 void ang_transfer_editor(ang_viewer *viewer);
 void ang_transfer_editor_start(ang_viewer *viewer);
 

@@ -97,6 +97,27 @@ static void bending_moves_and_widens_what_shows(void **state) {
     for (int i = 0; i < 4; i++) assert_close(again.points[i].hu, document.points[i].hu, 1e-9);
 }
 
+/* Light that went through is what is left of the power of what went through before. */
+static void strengthening_multiplies_extinction(void **state) {
+    (void)state;
+    ang_document document, other;
+    start(&document);
+    document.points[3].opacity = 1;
+    other = document;
+    ang_document_strengthen(&other, &document, 2);
+    assert_close(other.points[1].opacity, 0, 0);
+    assert_close(other.points[2].opacity, 1 - 0.6 * 0.6, 1e-12);
+    assert_close(other.points[3].opacity, 1, 0);
+    assert_true(other.edited);
+    ang_document_strengthen(&other, &other, 0.5);
+    assert_close(other.points[2].opacity, 0.4, 1e-12);
+    document.by_extinction = true;
+    document.points[3].opacity = 7;
+    ang_document_strengthen(&other, &document, 3);
+    assert_close(other.points[2].opacity, 0.4 * 3, 1e-12);
+    assert_close(other.points[3].opacity, 21, 1e-12);
+}
+
 /* Only what shows makes a new picture. */
 static void renderings_are_told_apart(void **state) {
     (void)state;
@@ -255,6 +276,7 @@ int main(void) {
         cmocka_unit_test(a_new_point_changes_nothing_yet),
         cmocka_unit_test(points_keep_their_order_and_range),
         cmocka_unit_test(bending_moves_and_widens_what_shows),
+        cmocka_unit_test(strengthening_multiplies_extinction),
         cmocka_unit_test(renderings_are_told_apart),
         cmocka_unit_test(undo_and_redo_walk_the_states),
         cmocka_unit_test(one_gesture_is_one_step),

@@ -116,6 +116,7 @@ void ang_panel(ang_viewer *viewer, ang_rect rect) {
         presets(viewer);
         ang_transfer_editor(viewer);
         rendering(viewer);
+        ang_cutting_panel(viewer);
         slices(viewer);
         series(viewer);
     }

@@ -131,9 +131,11 @@ static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, 
         return;
     }
     bool ours = gesture->pane == (int)pane && !gesture->cancelled;
-    if (ours && canvas->held >= 0 && (canvas->dx != 0 || canvas->dy != 0 || canvas->pressed))
+    ang_cutting_pane cutting = {viewer->pane[pane], ang_pane_map_of_slice(frame), frame};
+    bool cuts = gesture->pane == (int)pane && ang_cutting_hands(viewer, &cutting, canvas);
+    if (ours && !cuts && canvas->held >= 0 && (canvas->dx != 0 || canvas->dy != 0 || canvas->pressed))
         drag(viewer, orientation, canvas, frame);
-    if (ours && canvas->clicked && canvas->released == ANG_BUTTON_LEFT && viewer->tool != ANG_TOOL_PAN)
+    if (ours && !cuts && canvas->clicked && canvas->released == ANG_BUTTON_LEFT && viewer->tool != ANG_TOOL_PAN)
         ang_viewer_point_at(viewer, ang_slice_at(frame, canvas->start_x, canvas->start_y));
     if (canvas->wheel == 0) return;
     if (canvas->modifiers & ANG_MOD_CONTROL)
@@ -214,6 +216,8 @@ void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     else
         ang_viewer_say(viewer, true, "%s", err.message);
     hover(viewer, pane, &canvas, &frame);
+    ang_cutting_pane cutting = {rect, ang_pane_map_of_slice(&frame), &frame};
+    ang_cutting_draw(viewer, &cutting, &canvas);
     if (viewer->crosshair_shown) draw_crosshair(viewer, pane, rect, &frame);
     ang_pane_letters(viewer, rect, frame.axes.right, frame.axes.down);
     if (viewer->corner_text) {

@@ -5,8 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double least_zoom = 0.1, greatest_zoom = 100;
-
 /* Millimetres of a pixel at the depth of the volume's centre. */
 static double scale_of(const ang_viewer *viewer, ang_rect rect) {
     ang_scene scene = ang_volume_scene(viewer, &viewer->document, NULL, (int)rect.width, (int)rect.height);
@@ -14,13 +12,7 @@ static double scale_of(const ang_viewer *viewer, ang_rect rect) {
 }
 
 static void zoom(ang_viewer *viewer, ang_rect rect, double x, double y, double factor) {
-    ang_view *view = &viewer->document.view;
-    double mm = scale_of(viewer, rect), wanted = fmin(fmax(view->zoom * factor, least_zoom), greatest_zoom);
-    /* What lies under the pointer at the depth of the centre stays there. */
-    double kept = 1 - view->zoom / wanted;
-    view->pan_mm[0] += (x - rect.width / 2) * mm * kept;
-    view->pan_mm[1] -= (y - rect.height / 2) * mm * kept;
-    view->zoom = wanted;
+    ang_view_zoom(&viewer->document.view, viewer->study.volume, (int)rect.width, (int)rect.height, x, y, factor);
 }
 
 /* As 3D Slicer: up and down shift, across stretches. */
@@ -31,6 +23,21 @@ static void bend(ang_viewer *viewer, const ang_canvas *canvas) {
     double shift = -(canvas->y - canvas->start_y) * speed;
     double stretch = exp((canvas->x - canvas->start_x) / (300 * viewer->input.scale));
     ang_document_bend(&viewer->document, before, shift, stretch);
+}
+
+/* Up makes everything more opaque, by half for each 60 pixels. */
+static void strengthen(ang_viewer *viewer, const ang_canvas *canvas) {
+    double factor = exp((canvas->start_y - canvas->y) / (150 * viewer->input.scale));
+    ang_document_strengthen(&viewer->document, &viewer->gesture.before, factor);
+}
+
+static void turn(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
+    ang_view *view = &viewer->document.view;
+    double degrees = 180 / fmin(rect.width, rect.height);
+    if (viewer->turns_about_crosshair)
+        ang_view_turn_about(view, viewer->study.volume, viewer->crosshair, canvas->dx * degrees, canvas->dy * degrees);
+    else
+        ang_view_turn(view, canvas->dx * degrees, canvas->dy * degrees);
 }
 
 static void drag(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
@@ -44,12 +51,18 @@ static void drag(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
         view->pan_mm[1] += canvas->dy * mm;
     } else if (canvas->held == ANG_BUTTON_RIGHT) {
         zoom(viewer, rect, canvas->start_x, canvas->start_y, exp(-canvas->dy / (150 * viewer->input.scale)));
+    } else if (viewer->gesture.strengthens) {
+        strengthen(viewer, canvas);
     } else if (viewer->gesture.bends) {
         bend(viewer, canvas);
     } else {
-        double degrees = 180 / fmin(rect.width, rect.height);
-        ang_view_turn(view, canvas->dx * degrees, canvas->dy * degrees);
+        turn(viewer, canvas, rect);
     }
+}
+
+static ang_cutting_pane cutting_pane(const ang_viewer *viewer, ang_rect rect) {
+    ang_camera camera = ang_camera_for(viewer->study.volume, &viewer->document.view);
+    return (ang_cutting_pane){rect, ang_pane_map_of_camera(&camera, (int)rect.width, (int)rect.height), NULL};
 }
 
 static void handle(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
@@ -59,7 +72,8 @@ static void handle(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) 
         *gesture = (ang_gesture){.pane = ANG_PANE_VOLUME,
                                  .before = viewer->document,
                                  .crosshair = viewer->crosshair,
-                                 .bends = (canvas->modifiers & ANG_MOD_SHIFT) != 0};
+                                 .bends = canvas->modifiers == ANG_MOD_SHIFT,
+                                 .strengthens = canvas->modifiers == (ANG_MOD_SHIFT | ANG_MOD_CONTROL)};
     if (canvas->double_clicked) {
         viewer->maximised = viewer->maximised == ANG_PANE_VOLUME ? -1 : ANG_PANE_VOLUME;
         gesture->cancelled = true;
@@ -67,9 +81,12 @@ static void handle(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) 
         return;
     }
     bool ours = gesture->pane == ANG_PANE_VOLUME && !gesture->cancelled;
-    if (ours && canvas->held >= 0 && (canvas->dx != 0 || canvas->dy != 0)) drag(viewer, canvas, rect);
+    ang_cutting_pane cutting = cutting_pane(viewer, rect);
+    bool cuts = gesture->pane == ANG_PANE_VOLUME && ang_cutting_hands(viewer, &cutting, canvas);
+    if (ours && !cuts && canvas->held >= 0 && (canvas->dx != 0 || canvas->dy != 0)) drag(viewer, canvas, rect);
     ang_vec3 mm;
-    bool picks = ours && canvas->clicked && canvas->released == ANG_BUTTON_LEFT && !gesture->bends;
+    bool picks = ours && !cuts && canvas->clicked && canvas->released == ANG_BUTTON_LEFT && !gesture->bends &&
+                 !gesture->strengthens;
     if (picks && ang_volume_pick(viewer, canvas->start_x, canvas->start_y, &mm)) ang_viewer_point_at(viewer, mm);
     if (canvas->wheel != 0) zoom(viewer, rect, canvas->x, canvas->y, pow(1.15, canvas->wheel));
 }
@@ -112,6 +129,8 @@ void ang_volume_pane(ang_viewer *viewer, ang_rect rect) {
                       true, false, ANG_INK_TEXT, viewer->volume.failure);
     else
         ang_gui_picture(viewer->gui, &viewer->volume.texture, rect);
+    ang_cutting_pane cutting = cutting_pane(viewer, rect);
+    ang_cutting_draw(viewer, &cutting, &canvas);
     ang_scene scene = ang_volume_scene(viewer, &viewer->document, NULL, (int)rect.width, (int)rect.height);
     ang_pane_letters(viewer, rect, scene.camera.right, ang_vec3_scale(scene.camera.up, -1));
     if (viewer->corner_text) {

@@ -56,6 +56,16 @@ void ang_document_bend(ang_document *document, const ang_document *from, double 
     document->edited = true;
 }
 
+void ang_document_strengthen(ang_document *document, const ang_document *from, double factor) {
+    for (int i = 0; i < from->count; i++) {
+        double value = from->points[i].opacity;
+        document->points[i].opacity = from->by_extinction ? fmin(value * factor, ANG_TRANSFER_EXTINCTION_LIMIT)
+                                      : value < 1         ? -expm1(factor * log1p(-value))
+                                                          : 1;
+    }
+    document->edited = true;
+}
+
 int ang_document_add_point(ang_document *document, double hu) {
     if (document->count >= ANG_DOCUMENT_POINTS) return -1;
     int at = 0;

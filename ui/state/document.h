@@ -37,6 +37,8 @@ ang_transfer *ang_document_transfer(const ang_document *document, ang_error *err
 /* Moves the points of `from` by `shift` HU after spreading them by `stretch` (> 0) about the middle between the first
  * and the last that shows anything, and the iso value along. */
 void ang_document_bend(ang_document *document, const ang_document *from, double shift, double stretch);
+/* The points of `from` with the extinction of all multiplied by `factor` (>= 0): opacity 1 stays 1. */
+void ang_document_strengthen(ang_document *document, const ang_document *from, double factor);
 
 /* Whether two documents give the same volume rendering. */
 bool ang_document_same_rendering(const ang_document *a, const ang_document *b);
