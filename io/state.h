@@ -39,8 +39,8 @@ typedef struct ang_state {
     double shift_hu, stretch;           /* by how much of that a drag has moved and spread it; 0, 1 */
     double window_centre, window_width; /* HU: of the slices, and of 3D in modes of values */
     ang_slab slab;
-    double slab_mm;     /* 0: none */
-    ang_vec3 crosshair; /* LPS mm; all three NaN where open */
+    double slab_mm;                  /* 0: none */
+    ang_vec3 crosshair;              /* LPS mm; all three NaN where open */
     ang_vec3 crop_lower, crop_upper; /* the crop box, also while the picture is not cropped (it is by an option "clip"):
                                         voxel index; all NaN where open */
     ang_state_slice slice[ANG_STATE_SLICES];

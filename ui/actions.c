@@ -111,7 +111,7 @@ static bool is_cropped(const ang_viewer *viewer, int argument) {
 }
 static bool is_clipped(const ang_viewer *viewer, int argument) {
     (void)argument;
-    return ang_clip_plane_on(&viewer->document.clip);
+    return ang_clip_plane_given(&viewer->document.clip);
 }
 static bool has_clip_plane(const ang_viewer *viewer) { return viewer->ready && is_clipped(viewer, 0); }
 

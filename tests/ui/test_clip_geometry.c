@@ -42,9 +42,9 @@ static void angles_are_those_of_a_camera_there(void **state) {
 static void it_turns_over_and_moves_within_the_volume(void **state) {
     (void)state;
     ang_volume *volume = cube();
-    assert_false(ang_clip_plane_on(&(ang_clip_plane){0}));
+    assert_false(ang_clip_plane_given(&(ang_clip_plane){0}));
     ang_clip_plane plane = ang_clip_plane_through((ang_vec3){0, 0, 5}, (ang_vec3){0, 0, 2});
-    assert_true(ang_clip_plane_on(&plane));
+    assert_true(ang_clip_plane_given(&plane));
     assert_close(plane.offset_mm, 5, 0);
     ang_clip_plane over = ang_clip_plane_flip(&plane);
     assert_vector(over.normal, 0, 0, -1);

@@ -76,7 +76,7 @@ void ang_cutting_panel(ang_viewer *viewer) {
     ang_gui_heading(gui, "CROP AND CLIP");
     double half = (ang_gui_px(gui, 200) - ang_gui_px(gui, 8)) / 2;
     crop(viewer, half);
-    bool clips = ang_clip_plane_on(&viewer->document.clip);
+    bool clips = ang_clip_plane_given(&viewer->document.clip);
     ang_gui_label(gui, "Clip plane");
     if (ang_gui_checkbox(gui, "Clip##clip", &clips)) ang_clip_toggle(viewer, 0);
     ang_gui_tooltip(gui,
@@ -85,5 +85,5 @@ void ang_cutting_panel(ang_viewer *viewer) {
     ang_gui_same_line(gui);
     if (ang_gui_button(gui, "Facing me##clip", ang_gui_room(gui), true)) ang_clip_face_viewer(viewer, 0);
     ang_gui_tooltip(gui, "Through the crosshair, across the line of sight. Key K.");
-    if (ang_clip_plane_on(&viewer->document.clip)) plane_fields(viewer, half);
+    if (ang_clip_plane_given(&viewer->document.clip)) plane_fields(viewer, half);
 }

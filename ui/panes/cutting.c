@@ -38,7 +38,7 @@ static bool near(const ang_pane_map *map, ang_vec3 mm, double x, double y, doubl
 }
 
 static ang_grip grip_in_volume(const ang_viewer *viewer, const ang_pane_map *map, double x, double y) {
-    bool clips = ang_clip_plane_on(&viewer->document.clip);
+    bool clips = ang_clip_plane_given(&viewer->document.clip);
     double radius = ang_gui_px(viewer->gui, reach);
     ang_crop_box box = ang_crop_box_of(&viewer->document);
     if (clips && near(map, ang_cutting_tip(viewer, map), x, y, radius)) return (ang_grip){ANG_GRIP_TIP, 0};
@@ -58,8 +58,8 @@ static ang_grip grip_in_slice(const ang_viewer *viewer, const ang_cutting_pane *
     int count = ang_crop_outline(&box, viewer->study.volume, inward, ang_vec3_dot(inward, frame->corner), sides);
     unsigned faces = ang_crop_pick_side(sides, count, &pane->map, x, y, radius);
     if (faces) return (ang_grip){ANG_GRIP_FACES, faces};
-    bool taken = ang_clip_plane_on(&viewer->document.clip) && ang_clip_line(&viewer->document.clip, frame, ends) &&
-                 ang_distance_to_line(ends, x, y) <= radius;
+    bool taken = ang_clip_plane_given(&viewer->document.clip) && ang_clip_line(&viewer->document.clip, frame, ends) &&
+                 ang_line_distance(ends, x, y) <= radius;
     return (ang_grip){taken ? ANG_GRIP_PLANE : ANG_GRIP_NONE, 0};
 }
 
@@ -92,9 +92,8 @@ static void drag_plane(ang_viewer *viewer, const ang_cutting_pane *pane, const a
     const ang_clip_plane *before = &viewer->gesture.before.clip;
     double mm;
     if (pane->frame) {
-        ang_vec3 moved = ang_vec3_sub(hand_is(viewer, pane, canvas), hand_began(pane, canvas));
-        /* The line follows the pointer where the slice cuts the plane at right angles or not. */
-        mm = ang_vec3_dot(before->normal, moved);
+        /* The line goes with the pointer at whatever angle the slice cuts the plane. */
+        mm = ang_vec3_dot(before->normal, ang_vec3_sub(hand_is(viewer, pane, canvas), hand_began(pane, canvas)));
     } else {
         double x, y;
         ang_vec3 foot = ang_clip_plane_foot(before, viewer->cutting.pivot);
@@ -160,7 +159,7 @@ void ang_clip_face_viewer(ang_viewer *viewer, int argument) {
 }
 
 void ang_clip_toggle(ang_viewer *viewer, int argument) {
-    if (ang_clip_plane_on(&viewer->document.clip))
+    if (ang_clip_plane_given(&viewer->document.clip))
         viewer->document.clip = (ang_clip_plane){0};
     else
         ang_clip_face_viewer(viewer, argument);

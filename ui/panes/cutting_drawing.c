@@ -64,6 +64,7 @@ static void draw_outline(ang_viewer *viewer, const ang_cutting_pane *pane, bool 
     for (int i = 0; i < count; i++) draw_line(viewer, pane, sides[i].ends[0], sides[i].ends[1], ANG_INK_CROP, alpha);
     for (int i = 0; i < count && handles; i++) {
         if (!ang_pane_map_line(&pane->map, sides[i].ends[0], sides[i].ends[1], e)) continue;
+        if (!ang_line_within(e, pane->rect.width, pane->rect.height)) continue;
         draw_square(viewer, pane, (e[0] + e[2]) / 2, (e[1] + e[3]) / 2, true, hot >> sides[i].face & 1);
     }
 }
@@ -146,7 +147,7 @@ static void write_numbers(ang_viewer *viewer, const ang_cutting_pane *pane, cons
 }
 
 void ang_cutting_draw(ang_viewer *viewer, const ang_cutting_pane *pane, const ang_canvas *canvas) {
-    bool tool = viewer->tool == ANG_TOOL_CROP, clips = ang_clip_plane_on(&viewer->document.clip);
+    bool tool = viewer->tool == ANG_TOOL_CROP, clips = ang_clip_plane_given(&viewer->document.clip);
     bool holding = canvas->held >= 0 && viewer->cutting.grip.kind != ANG_GRIP_NONE;
     ang_grip grip = {ANG_GRIP_NONE, 0};
     if (holding)

@@ -1,8 +1,7 @@
 #include "ui/state/clip_geometry.h"
 
 #include <math.h>
-
-bool ang_clip_plane_on(const ang_clip_plane *plane) { return ang_vec3_dot(plane->normal, plane->normal) > 0; }
+#include <string.h>
 
 ang_clip_plane ang_clip_plane_through(ang_vec3 mm, ang_vec3 normal) {
     normal = ang_vec3_unit(normal);
@@ -68,23 +67,11 @@ bool ang_clip_line(const ang_clip_plane *plane, const ang_slice_frame *frame, do
     double down = ang_vec3_dot(plane->normal, frame->axes.down) * frame->mm_per_pixel;
     double at = ang_vec3_dot(plane->normal, frame->corner) - plane->offset_mm, steep = right * right + down * down;
     if (!(steep > 1e-12 * frame->mm_per_pixel * frame->mm_per_pixel)) return false;
-    /* From the line's place nearest to the corner, along (way_x, way_y), as far as the pane goes. */
-    double x = -at * right / steep, y = -at * down / steep;
-    double way[2] = {-down, right}, start[2] = {x, y}, size[2] = {frame->width, frame->height};
-    double first = -INFINITY, last = INFINITY;
-    for (int i = 0; i < 2; i++) {
-        double a = -start[i] / way[i], b = (size[i] - start[i]) / way[i];
-        if (fabs(way[i]) < 1e-9 * sqrt(steep)) {
-            if (start[i] < 0 || start[i] > size[i]) return false;
-            continue;
-        }
-        first = fmax(first, fmin(a, b));
-        last = fmin(last, fmax(a, b));
-    }
-    if (!(first < last)) return false;
-    for (int i = 0; i < 2; i++) {
-        ends[i] = start[i] + first * way[i];
-        ends[2 + i] = start[i] + last * way[i];
-    }
-    return true;
+    /* To both sides of its place nearest to the pane's middle, as far as the pane may go. */
+    double middle[2] = {frame->width / 2.0, frame->height / 2.0};
+    double away = (at + middle[0] * right + middle[1] * down) / steep;
+    double far = hypot(frame->width, frame->height) / sqrt(steep), way[2] = {-down * far, right * far};
+    double x = middle[0] - away * right, y = middle[1] - away * down;
+    memcpy(ends, (double[]){x - way[0], y - way[1], x + way[0], y + way[1]}, 4 * sizeof *ends);
+    return ang_line_within(ends, frame->width, frame->height);
 }

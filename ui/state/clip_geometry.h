@@ -5,8 +5,6 @@
 #include "core/scene/scene.h"
 #include "ui/state/pane_map.h"
 
-/* Whether there is a plane. */
-bool ang_clip_plane_on(const ang_clip_plane *plane);
 /* The plane through a place that cuts away what lies on the side to which `normal` (any length but 0) points. */
 ang_clip_plane ang_clip_plane_through(ang_vec3 mm, ang_vec3 normal);
 /* The same plane with the other side cut away. */

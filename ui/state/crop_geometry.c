@@ -130,13 +130,6 @@ unsigned ang_crop_pick(const ang_crop_box *box, const ang_volume *volume, const 
     return best < 0 ? 0 : 1u << best;
 }
 
-double ang_distance_to_line(const double ends[4], double x, double y) {
-    double dx = ends[2] - ends[0], dy = ends[3] - ends[1], squared = dx * dx + dy * dy;
-    double part = squared > 0 ? ((x - ends[0]) * dx + (y - ends[1]) * dy) / squared : 0;
-    part = fmin(fmax(part, 0), 1);
-    return hypot(x - ends[0] - part * dx, y - ends[1] - part * dy);
-}
-
 unsigned ang_crop_pick_side(const ang_crop_side *sides, int count, const ang_pane_map *map, double x, double y,
                             double radius) {
     unsigned faces = 0;
@@ -152,7 +145,7 @@ unsigned ang_crop_pick_side(const ang_crop_side *sides, int count, const ang_pan
                 if (meet && hypot(ends[2 * end] - x, ends[2 * end + 1] - y) <= radius)
                     return 1u << sides[i].face | 1u << sides[k].face;
             }
-        double distance = ang_distance_to_line(ends, x, y);
+        double distance = ang_line_distance(ends, x, y);
         if (distance > nearest) continue;
         nearest = distance;
         faces = 1u << sides[i].face;

@@ -59,7 +59,4 @@ ang_crop_box ang_crop_drag_slice(const ang_crop_box *before, const ang_volume *v
 ang_crop_box ang_crop_drag(const ang_crop_box *before, const ang_volume *volume, unsigned faces,
                            const ang_pane_map *map, double dx, double dy);
 
-/* Pixels from (x, y) to the line between two places of a pane. */
-double ang_distance_to_line(const double ends[4], double x, double y);
-
 #endif

@@ -53,6 +53,34 @@ bool ang_pane_map_line(const ang_pane_map *map, ang_vec3 from, ang_vec3 to, doub
            ang_pane_map_point(map, place[1], &ends[2], &ends[3]);
 }
 
+bool ang_line_within(double ends[4], double width, double height) {
+    double size[2] = {width, height}, first = 0, last = 1;
+    for (int i = 0; i < 2; i++) {
+        double start = ends[i], way = ends[2 + i] - start;
+        if (fabs(way) < 1e-9) {
+            if (start < 0 || start > size[i]) return false;
+            continue;
+        }
+        double a = -start / way, b = (size[i] - start) / way;
+        first = fmax(first, fmin(a, b));
+        last = fmin(last, fmax(a, b));
+    }
+    if (!(first <= last)) return false;
+    for (int i = 0; i < 2; i++) {
+        double start = ends[i], way = ends[2 + i] - start;
+        ends[i] = start + first * way;
+        ends[2 + i] = start + last * way;
+    }
+    return true;
+}
+
+double ang_line_distance(const double ends[4], double x, double y) {
+    double dx = ends[2] - ends[0], dy = ends[3] - ends[1], squared = dx * dx + dy * dy;
+    double part = squared > 0 ? ((x - ends[0]) * dx + (y - ends[1]) * dy) / squared : 0;
+    part = fmin(fmax(part, 0), 1);
+    return hypot(x - ends[0] - part * dx, y - ends[1] - part * dy);
+}
+
 double ang_pane_map_scale(const ang_pane_map *map, ang_vec3 mm) {
     double depth = depth_of(map, mm);
     return map->perspective && depth < map->near_mm ? 0 : map->focal / depth;

@@ -23,6 +23,11 @@ ang_pane_map ang_pane_map_of_slice(const ang_slice_frame *frame);
 bool ang_pane_map_point(const ang_pane_map *map, ang_vec3 mm, double *x, double *y);
 /* The part of a line that shows, as x, y of both ends; false where there is none. It may leave the pane. */
 bool ang_pane_map_line(const ang_pane_map *map, ang_vec3 from, ang_vec3 to, double ends[4]);
+/* Cuts a line of pixels down to what is within 0..width and 0..height; false where nothing is. */
+bool ang_line_within(double ends[4], double width, double height);
+/* Pixels from (x, y) to such a line. */
+double ang_line_distance(const double ends[4], double x, double y);
+
 /* Pixels of a millimetre across the line of sight at a place; 0 beside and behind the eye. */
 double ang_pane_map_scale(const ang_pane_map *map, ang_vec3 mm);
 /* The unit direction in which the eye sees a place. */
