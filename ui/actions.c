@@ -237,7 +237,7 @@ static const ang_action actions[] = {
     {"View", "Superior", NULL, 'S', A, standard_view, 4, false, is_ready, NULL},
     {"View", "Inferior", NULL, 'I', A, standard_view, 5, false, is_ready, NULL},
     {"View", "Parallel projection", NULL, 'O', 0, toggle_projection, 0, true, is_ready, is_parallel},
-    {"View", "Turn about the crosshair", "else about the volume's centre", 'V', 0, toggle_turning, 0, false, is_ready,
+    {"View", "Turn about the crosshair", "else about the volume's centre", 'C', S, toggle_turning, 0, false, is_ready,
      turns_about_crosshair},
     {"View", "Crosshair lines", NULL, 'X', S, toggle_crosshair, 0, true, is_ready, shows_crosshair},
     {"View", "Text on the panes", NULL, 'T', 0, toggle_text, 0, false, is_ready, shows_text},

@@ -181,6 +181,8 @@ bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm);
 void ang_pane_letters(ang_viewer *viewer, ang_rect rect, ang_vec3 right, ang_vec3 down);
 void ang_pane_bar(ang_viewer *viewer, ang_rect rect, double mm_per_pixel, bool at_centre);
 void ang_pane_corner(ang_viewer *viewer, ang_rect rect, int right, int bottom, int line, const char *text);
+/* The patient's axes as the camera sees them, small in the corner. */
+void ang_orientation_axes(ang_viewer *viewer, ang_rect rect, const ang_camera *camera);
 /* The pane's border, with its letter. */
 void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane);
 void ang_status_line(ang_viewer *viewer, ang_rect rect);

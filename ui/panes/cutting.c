@@ -4,7 +4,7 @@
 #include <math.h>
 
 /* Pixels at scale 1. */
-static const double reach = 9, side_reach = 6, ring_radius = 52, arrow_length = 84;
+static const double reach = 9, side_reach = 7, ring_radius = 52, arrow_length = 84;
 
 ang_vec3 ang_cutting_foot(const ang_viewer *viewer) {
     return ang_clip_plane_foot(&viewer->document.clip, viewer->cutting.pivot);

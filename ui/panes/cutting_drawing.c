@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 enum { ring_pieces = 64 };
-static const unsigned hidden = 90, plain = 210; /* alpha of what lies behind, and of the rest */
+static const unsigned hidden = 90, off = 130, plain = 210; /* alpha of what lies behind, what is off, and the rest */
 
 static ang_ink with_alpha(ang_ink ink, unsigned alpha) { return (ink & 0xffffffu) | (ang_ink)alpha << 24; }
 
@@ -37,13 +37,14 @@ static void draw_box(ang_viewer *viewer, const ang_cutting_pane *pane, unsigned 
     const ang_volume *volume = viewer->study.volume;
     ang_crop_box box = ang_crop_box_of(&viewer->document);
     bool seen[ANG_CROP_FACES];
+    unsigned alpha = viewer->document.crop ? plain : off;
     for (int face = 0; face < ANG_CROP_FACES; face++) seen[face] = ang_crop_face_seen(&box, volume, face, &pane->map);
     for (int front = 0; front < 2; front++) {
         for (int i = 0; i < ANG_CROP_EDGES; i++) {
             ang_crop_edge edge = ang_crop_edge_of(&box, volume, i);
             bool before = seen[edge.faces[0]] || seen[edge.faces[1]];
             if (before == front)
-                draw_line(viewer, pane, edge.ends[0], edge.ends[1], ANG_INK_CROP, front ? plain : hidden);
+                draw_line(viewer, pane, edge.ends[0], edge.ends[1], ANG_INK_CROP, front ? alpha : hidden);
         }
         for (int face = 0; face < ANG_CROP_FACES; face++) {
             double x, y;
@@ -53,19 +54,34 @@ static void draw_box(ang_viewer *viewer, const ang_cutting_pane *pane, unsigned 
     }
 }
 
-/* The box in a slice: its outline, and handles in the middle of the sides and at their ends. */
+/* In the middle of what shows of a side; on the pane's edge whole, and beside the letter that is there. */
+static void place_handle(const ang_viewer *viewer, const ang_cutting_pane *pane, const double side[4], double *x,
+                         double *y) {
+    double inset = ang_gui_px(viewer->gui, 6), aside = ang_gui_px(viewer->gui, 24);
+    double middle_x = (side[0] + side[2]) / 2, middle_y = (side[1] + side[3]) / 2;
+    *x = fmin(fmax(middle_x, inset), pane->rect.width - inset);
+    *y = fmin(fmax(middle_y, inset), pane->rect.height - inset);
+    if (fabs(*x - middle_x) > 0)
+        *y += aside;
+    else if (fabs(*y - middle_y) > 0)
+        *x += aside;
+}
+
+/* The box in a slice: its outline, and handles on the sides. */
 static void draw_outline(ang_viewer *viewer, const ang_cutting_pane *pane, bool handles, unsigned hot) {
     ang_crop_box box = ang_crop_box_of(&viewer->document);
     ang_crop_side sides[ANG_CROP_FACES];
     ang_vec3 inward = pane->frame->axes.inward;
     double offset = ang_vec3_dot(inward, pane->frame->corner), e[4];
     int count = ang_crop_outline(&box, viewer->study.volume, inward, offset, sides);
-    unsigned alpha = viewer->document.crop ? plain : hidden;
+    unsigned alpha = viewer->document.crop ? plain : off;
     for (int i = 0; i < count; i++) draw_line(viewer, pane, sides[i].ends[0], sides[i].ends[1], ANG_INK_CROP, alpha);
     for (int i = 0; i < count && handles; i++) {
         if (!ang_pane_map_line(&pane->map, sides[i].ends[0], sides[i].ends[1], e)) continue;
         if (!ang_line_within(e, pane->rect.width, pane->rect.height)) continue;
-        draw_square(viewer, pane, (e[0] + e[2]) / 2, (e[1] + e[3]) / 2, true, hot >> sides[i].face & 1);
+        double x, y;
+        place_handle(viewer, pane, e, &x, &y);
+        draw_square(viewer, pane, x, y, true, hot >> sides[i].face & 1);
     }
 }
 

@@ -135,6 +135,7 @@ void ang_volume_pane(ang_viewer *viewer, ang_rect rect) {
     ang_pane_letters(viewer, rect, scene.camera.right, ang_vec3_scale(scene.camera.up, -1));
     if (viewer->corner_text) {
         write_corners(viewer, rect);
+        ang_orientation_axes(viewer, rect, &scene.camera);
         ang_pane_bar(viewer, rect, ang_annotation_make(&scene, NULL).mm_per_pixel,
                      scene.camera.projection == ANG_PERSPECTIVE);
     }
