@@ -289,6 +289,41 @@ static void a_drag_strengthens_opacity(void **state) {
     expect_number("preset.points.5.opacity", before, 0);
 }
 
+/* Another window goes on with the box, its being off, and the plane. */
+static void a_session_has_box_and_plane(void **state) {
+    (void)state;
+    need_window();
+    double before[10], after[10];
+    static const char *const paths[10] = {
+        "crop.lower.0", "crop.lower.1",        "crop.lower.2",        "crop.upper.0",        "crop.upper.1",
+        "crop.upper.2", "clip_plane.normal.0", "clip_plane.normal.1", "clip_plane.normal.2", "clip_plane.offset_mm"};
+    hands("key x");
+    expect_text("tool", "crop");
+    drag_head_end(31.7);
+    go_to("volume");
+    hands("key k key ctrl+s");
+    expect_text("saved", "angioscope-volume-0005.png");
+    for (int off = 0; off < 2; off++) {
+        if (off) hands("key alt+x");
+        if (off) expect_option("clip", "");
+        for (int i = 0; i < 10; i++) before[i] = number_now(paths[i]);
+        hands("key ctrl+alt+s");
+        expect_text("saved", off ? "angioscope-state-0002.json" : "angioscope-state-0001.json");
+        hands("key ctrl+q");
+        assert_int_equal(wait_for_end(), 0);
+        start_viewer(off ? "--state " PICTURES "/angioscope-state-0002.json"
+                         : "--state " PICTURES "/angioscope-state-0001.json");
+        expect_text("phase", "ready");
+        for (int i = 0; i < 10; i++) after[i] = number_now(paths[i]);
+        for (int i = 0; i < 10; i++) assert_close(after[i], before[i], i < 6 ? 0 : 1e-12);
+        go_to("volume");
+        hands("key ctrl+s");
+        expect_text("saved", off ? "angioscope-volume-0007.png" : "angioscope-volume-0006.png");
+    }
+    assert_true(difference(PICTURES "/angioscope-volume-0006.png", PICTURES "/angioscope-volume-0005.png") <= 0);
+    assert_true(difference(PICTURES "/angioscope-volume-0007.png", PICTURES "/angioscope-volume-0005.png") > 50);
+}
+
 static void it_ends_well(void **state) {
     (void)state;
     need_window();
@@ -306,6 +341,7 @@ int main(void) {
         cmocka_unit_test(a_plane_cuts_what_is_before_the_crosshair),
         cmocka_unit_test(the_planes_line_is_dragged_in_a_slice),
         cmocka_unit_test(a_drag_strengthens_opacity),
+        cmocka_unit_test(a_session_has_box_and_plane),
         cmocka_unit_test(it_ends_well),
     };
     return cmocka_run_group_tests(tests, opening, closing);

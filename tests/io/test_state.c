@@ -43,6 +43,8 @@ static ang_state everything(void) {
     state.slab = ANG_SLAB_MINIP;
     state.slab_mm = 10;
     state.crosshair = (ang_vec3){M_PI, -M_E, 1e-17};
+    state.crop_lower = (ang_vec3){-0.5, 1 / 3.0, 2};
+    state.crop_upper = (ang_vec3){0.5, 10 / 3.0, 7};
     for (int i = 0; i < ANG_STATE_SLICES; i++)
         state.slice[i] = (ang_state_slice){.zoom = 1 + i / 7.0, .pan_mm = {-i / 3.0, 5}};
     snprintf(state.maximised, sizeof state.maximised, "coronal");
@@ -75,6 +77,8 @@ static void all_of_it_comes_back(void **context) {
                   wrote.window_width, wrote.slab_mm,     wrote.crosshair.x,
                   wrote.crosshair.y,  wrote.crosshair.z, 0.1};
     assert_memory_equal(a, b, sizeof a);
+    assert_memory_equal(&read.crop_lower, &wrote.crop_lower, sizeof read.crop_lower);
+    assert_memory_equal(&read.crop_upper, &wrote.crop_upper, sizeof read.crop_upper);
     assert_memory_equal(read.slice, wrote.slice, sizeof read.slice);
     assert_int_equal(read.slab, ANG_SLAB_MINIP);
     assert_string_equal(read.maximised, "coronal");
@@ -154,6 +158,7 @@ static void most_may_be_left_open(void **context) {
     ang_state state = parse(HEAD "\"render\": {\"zoom\": 1.5, \"axes\": true}, \"live\": {\"phase\": \"ready\"}}");
     assert_null(state.input_path);
     assert_int_equal(ang_state_series(&state), 0);
+    assert_true(isnan(state.crop_lower.x) && isnan(state.crop_upper.z));
     assert_true(isnan(state.crosshair.x) && isnan(state.window_width));
     assert_string_equal(ang_state_option_value(&state, "zoom"), "1.5");
     assert_string_equal(ang_state_option_value(&state, "axes"), "");
@@ -184,6 +189,8 @@ static void broken_ones_are_refused(void **context) {
         {HEAD "\"crosshair_mm\": [1, 2, null]}", "crosshair_mm[2] is null"},
         {HEAD "\"axial\": {\"pan\": [0, 0]}}", "axial.pan is not a known field; known are zoom, pan_mm"},
         {HEAD "\"oblique\": {}}", "oblique is not a known field"},
+        {HEAD "\"crop\": {\"lower\": [1, 2]}}", "crop must have lower and upper"},
+        {HEAD "\"crop\": {\"lower\": [1, 2], \"upper\": [1, 2, 3]}}", "crop.lower must be 3 numbers"},
         {HEAD "\"input\": {\"path\": 3}}", "input.path must be a text"},
         {HEAD "\"corner_text\": 1}", "corner_text must be true or false"},
         {HEAD "\"render\": {\"view\": [1, 2]}}", "render.view must be a text, a number or true"},
