@@ -5,11 +5,15 @@
 #include <math.h>
 #include <stdio.h>
 
+/* Of two fields in the rest of a line. */
+static double half_room(const ang_gui *gui) { return (ang_gui_room(gui) - ang_gui_px(gui, 8)) / 2; }
+
 /* From where to where, in mm from the first voxel as in --clip, along each of the volume's axes. */
-static void crop_fields(ang_viewer *viewer, double width) {
+static void crop_fields(ang_viewer *viewer) {
     static const char *const names[ANG_CROP_FACES] = {"##crop0", "##crop1", "##crop2", "##crop3", "##crop4", "##crop5"};
     ang_gui *gui = viewer->gui;
     const ang_volume *volume = viewer->study.volume;
+    double width = 0;
     ang_crop_box whole;
     ang_volume_box(volume, &whole.lower, &whole.upper);
     for (int face = 0; face < ANG_CROP_FACES; face++) {
@@ -21,6 +25,7 @@ static void crop_fields(ang_viewer *viewer, double width) {
         if (face % 2 == 0) {
             snprintf(text, sizeof text, "%c to %c", from, to);
             ang_gui_label(gui, text);
+            width = half_room(gui);
         } else {
             ang_gui_same_line(gui);
         }
@@ -34,7 +39,7 @@ static void crop_fields(ang_viewer *viewer, double width) {
     }
 }
 
-static void crop(ang_viewer *viewer, double half) {
+static void crop(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     ang_crop_box box = ang_crop_box_of(&viewer->document);
     ang_gui_label(gui, "Crop box");
@@ -44,15 +49,16 @@ static void crop(ang_viewer *viewer, double half) {
     if (ang_gui_button(gui, "Reset##crop", ang_gui_room(gui), !ang_crop_box_whole(&box, viewer->study.volume)))
         ang_crop_reset(viewer, 0);
     ang_gui_tooltip(gui, "The whole volume");
-    if (viewer->document.crop || viewer->tool == ANG_TOOL_CROP) crop_fields(viewer, half);
+    if (viewer->document.crop || viewer->tool == ANG_TOOL_CROP) crop_fields(viewer);
 }
 
-static void plane_fields(ang_viewer *viewer, double half) {
+static void plane_fields(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     ang_clip_plane *clip = &viewer->document.clip;
     double azimuth, elevation, offset = ang_clip_offset(clip, viewer->study.volume);
     ang_clip_plane_angles(clip, &azimuth, &elevation);
     ang_gui_label(gui, "Direction");
+    double half = half_room(gui);
     bool turned = ang_gui_number(gui, "##clip-azimuth", &azimuth, 0.5, -180, 180, "%.1f\xc2\xb0", half);
     ang_gui_tooltip(gui, "Azimuth of what is cut away: 0 towards the front, 90 towards the patient's left");
     ang_gui_same_line(gui);
@@ -74,8 +80,7 @@ static void plane_fields(ang_viewer *viewer, double half) {
 void ang_cutting_panel(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     ang_gui_heading(gui, "CROP AND CLIP");
-    double half = (ang_gui_px(gui, 200) - ang_gui_px(gui, 8)) / 2;
-    crop(viewer, half);
+    crop(viewer);
     bool clips = ang_clip_plane_given(&viewer->document.clip);
     ang_gui_label(gui, "Clip plane");
     if (ang_gui_checkbox(gui, "Clip##clip", &clips)) ang_clip_toggle(viewer, 0);
@@ -85,5 +90,5 @@ void ang_cutting_panel(ang_viewer *viewer) {
     ang_gui_same_line(gui);
     if (ang_gui_button(gui, "Facing me##clip", ang_gui_room(gui), true)) ang_clip_face_viewer(viewer, 0);
     ang_gui_tooltip(gui, "Through the crosshair, across the line of sight. Key K.");
-    if (ang_clip_plane_given(&viewer->document.clip)) plane_fields(viewer, half);
+    if (ang_clip_plane_given(&viewer->document.clip)) plane_fields(viewer);
 }
