@@ -64,9 +64,9 @@ static const option_spec table[] = {
     TEXT_OPTION("size", ANG_VERB_VIEW, size, "WxH", NULL, "window size in pixels; default: as suits the screen"),
     TEXT_OPTION("pictures", ANG_VERB_VIEW, pictures, "DIR", ".", "folder that saved pictures and presets go to"),
     TEXT_OPTION(
-        "state", ANG_VERB_RENDER, state, "FILE", NULL,
-        "draw what a saved state of the viewer shows in 3D, or a picture that was written by this program (.png, "
-        ".exr) again; what other options say goes first; PATH may be left out where the state names its data"),
+        "state", DRAWS, state, "FILE", NULL,
+        "draw what a saved state of the viewer shows in 3D, or a picture of this program (.png, .exr) again; what "
+        "other options say goes first; PATH may be left out where the state names its data"),
     TEXT_OPTION("state", ANG_VERB_VIEW, state, "FILE", NULL,
                 "begin with a saved state, or with what a picture of this program shows; its data need not be named "
                 "unless they have moved"),

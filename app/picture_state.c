@@ -60,10 +60,18 @@ bool ang_stated_open(ang_verb verb, const ang_options *options, ang_stated *stat
     *stated = (ang_stated){.options = *options, .state = ang_state_default};
     const char *file = options->state;
     if (!file) return true;
+    const char *method = options->method;
     bool opened = ang_state_read(file, &stated->state, err) && offer_input(verb, file, stated, err) &&
-                  (verb != ANG_VERB_RENDER || ang_state_offer(&stated->state, file, &stated->options, err));
+                  ang_state_offer(&stated->state, file, &stated->options, err);
+    if (verb == ANG_VERB_REPORT) stated->options.method = method;
     if (!opened) ang_stated_clear(stated);
     return opened;
+}
+
+void ang_stated_hand_preset(ang_stated *stated, ang_picture *picture) {
+    if (stated->options.preset || !stated->state.preset) return;
+    picture->preset = stated->state.preset;
+    stated->state.preset = NULL;
 }
 
 void ang_stated_clear(ang_stated *stated) { ang_state_clear(&stated->state); }

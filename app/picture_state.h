@@ -16,9 +16,12 @@ typedef struct ang_stated {
     const char *arguments[2];
 } ang_stated;
 
-/* Reads options->state, where it is given, and the options that result from it. False with ANG_USAGE naming the file,
- * ANG_LIMIT. */
+/* Reads options->state, where it is given, and the options of render or report that result from it; for report, which
+ * compares methods, without that of the state. False with ANG_USAGE naming the file, ANG_INPUT where its data are not
+ * there, ANG_LIMIT. */
 bool ang_stated_open(ang_verb verb, const ang_options *options, ang_stated *stated, ang_error *err);
+/* Gives the state's preset, where there is one and the command line names none, to a picture that has none yet. */
+void ang_stated_hand_preset(ang_stated *stated, ang_picture *picture);
 void ang_stated_clear(ang_stated *stated);
 
 /* Offers what a state says of a picture to options of render, which borrow it. False with ANG_USAGE: `file` (the

@@ -403,10 +403,7 @@ static bool check_outputs(const ang_options *options, ang_error *err) {
 static bool run_all(session *run, ang_error *err) {
     const ang_options *options = run->options;
     if (!check_outputs(options, err)) return false;
-    if (!options->preset) {
-        run->picture.preset = run->stated.state.preset;
-        run->stated.state.preset = NULL;
-    }
+    ang_stated_hand_preset(&run->stated, &run->picture);
     if (!ang_picture_open(options, run->progress, &run->volume, &run->report, &run->picture, &run->summary.load_ms,
                           err))
         return false;

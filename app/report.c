@@ -1,6 +1,7 @@
 /* angioscope report: error against run time of every method, for one picture. */
 #include "app/report/report.h"
 
+#include "app/picture_state.h"
 #include "app/verbs.h"
 #include "core/base/clock.h"
 #include "core/base/parallel.h"
@@ -56,9 +57,10 @@ static bool open_machine(ang_report *report, ang_error *err) {
 
 static bool prepare(ang_report *report, ang_error *err) {
     if (!ang_picture_open(report->options, report->progress, &report->volume, &report->input, &report->picture,
-                          &report->load_ms, err) ||
-        !open_machine(report, err) || !ang_report_plan(report, err))
+                          &report->load_ms, err))
         return false;
+    ang_state_matches(report->state, &report->input, &report->notes);
+    if (!open_machine(report, err) || !ang_report_plan(report, err)) return false;
     if (report->run_count == 0)
         return ang_fail(err, ANG_USAGE, "--method %s: is what others are compared with; choose another",
                         report->options->method);
@@ -145,18 +147,28 @@ static bool run_all(ang_report *report, ang_error *err) {
     return write_all(report, err);
 }
 
+/* The state that --state names, if any, says what the command line leaves open. */
+static bool run_stated(ang_report *report, ang_stated *stated, ang_error *err) {
+    if (!ang_stated_open(ANG_VERB_REPORT, report->options, stated, err)) return false;
+    report->options = &stated->options;
+    if (!ang_app_arguments(report->options, 1, "report: give one file or folder to read", err)) return false;
+    report->state = &stated->state;
+    ang_stated_hand_preset(stated, &report->picture);
+    return run_all(report, err);
+}
+
 int ang_app_report(const ang_options *options, ang_error *err) {
-    if (!ang_app_arguments(options, 1, "report: give one file or folder to read", err)) return ANG_USAGE;
     if (!options->output) {
         ang_fail(err, ANG_USAGE, "report: give a folder to write with -o DIR");
         return ANG_USAGE;
     }
+    ang_stated stated;
     ang_report report = {.options = options,
                          .progress = ang_app_progress_start(options->quiet),
                          .begun_ms = ang_now_ms(),
                          .limit_ms = options->time_limit * 60e3,
                          .load = ang_machine_load()};
-    bool done = run_all(&report, err);
+    bool done = run_stated(&report, &stated, err);
     ang_app_progress_end(report.progress);
     if (!options->quiet) {
         ang_app_say(&report.input.warnings, "warning: ", done ? NULL : err);
@@ -170,6 +182,7 @@ int ang_app_report(const ang_options *options, ang_error *err) {
     ang_load_report_clear(&report.input);
     ang_notes_clear(&report.notes);
     ang_volume_free(report.volume);
+    ang_stated_clear(&stated);
     free(report.order);
     free(report.run);
     return done ? ANG_OK : (int)err->code;

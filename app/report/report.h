@@ -8,6 +8,7 @@
 #include "core/error/metrics.h"
 #include "core/render/context.h"
 #include "core/render/method.h"
+#include "io/state.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>
@@ -76,7 +77,8 @@ typedef struct ang_report_order {
 } ang_report_order;
 
 typedef struct ang_report {
-    const ang_options *options;
+    const ang_options *options; /* with what `state` says */
+    const ang_state *state;     /* of --state; nothing in it without */
     ang_app_progress *progress;
     ang_volume *volume;
     ang_load_report input;

@@ -119,6 +119,22 @@ static void other_data_are_told(void **state) {
     assert_null(strstr(output, "warning"));
 }
 
+/* Methods are compared in the picture's scene, not its own method with itself. */
+static void a_report_is_of_it(void **state) {
+    (void)state;
+    need_pictures();
+    expect(0,
+           "render " DATA " --backend none --mode iso --iso 300 --view left --size 16x16 --method cpu" QUIET "/s.png");
+    expect(0, "report " DATA " --backend none --state " FOLDER "/s.png -q -o " FOLDER "/report 2>&1");
+    expect(0,
+           "report " DATA " --backend none --mode iso --iso 300 --view left --size 16x16 -q -o " FOLDER "/plain 2>&1");
+    assert_int_equal(system("grep -q '\"mode\":[[:space:]]*\"iso\"' " FOLDER "/report/report.json"), 0);
+    assert_int_equal(system("grep -q '\"azimuth\":[[:space:]]*90' " FOLDER "/report/report.json"), 0);
+    /* As many settings as without. */
+    assert_int_equal(system("test $(wc -l < " FOLDER "/report/report.csv) = $(wc -l < " FOLDER "/plain/report.csv)"),
+                     0);
+}
+
 /* No folder's name, and the file of the preset is not named. */
 static void a_picture_names_no_files(void **state) {
     (void)state;
@@ -135,7 +151,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_picture_is_drawn_again), cmocka_unit_test(each_frame_carries_its_own),
         cmocka_unit_test(options_go_first),         cmocka_unit_test(what_cannot_be_is_refused),
-        cmocka_unit_test(other_data_are_told),      cmocka_unit_test(a_picture_names_no_files),
+        cmocka_unit_test(other_data_are_told),      cmocka_unit_test(a_report_is_of_it),
+        cmocka_unit_test(a_picture_names_no_files),
     };
     return cmocka_run_group_tests(tests, opening, NULL);
 }
