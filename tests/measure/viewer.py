@@ -36,7 +36,8 @@ class Viewer:
     def state(self):
         try:
             with open(self.state_file) as file:
-                return json.load(file)
+                state = json.load(file)
+                return {**state, **state.pop("live", {})}
         except (OSError, ValueError):
             return {}
 
