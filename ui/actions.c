@@ -136,6 +136,14 @@ static bool shows_text(const ang_viewer *viewer, int argument) {
     (void)argument;
     return viewer->corner_text;
 }
+static void toggle_theme(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->theme = viewer->theme == &ang_theme_dark ? &ang_theme_light : &ang_theme_dark;
+}
+static bool is_light(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->theme == &ang_theme_light;
+}
 static void toggle_crosshair(ang_viewer *viewer, int argument) {
     (void)argument;
     toggle(&viewer->crosshair_shown);
@@ -241,7 +249,8 @@ static const ang_action actions[] = {
      turns_about_crosshair},
     {"View", "Crosshair lines", NULL, 'X', S, toggle_crosshair, 0, true, is_ready, shows_crosshair},
     {"View", "Text on the panes", NULL, 'T', 0, toggle_text, 0, false, is_ready, shows_text},
-    {"View", "Full screen", NULL, ANG_KEY_F11, 0, full_screen, 0, true, NULL, NULL},
+    {"View", "Light theme", "of all but the pictures", 0, 0, toggle_theme, 0, true, NULL, is_light},
+    {"View", "Full screen", NULL, ANG_KEY_F11, 0, full_screen, 0, false, NULL, NULL},
     {"Slices", "Next slice", "also the wheel; of the slice under the pointer, else axial", ANG_KEY_UP, 0, scroll, 1,
      false, is_ready, NULL},
     {"Slices", "Previous slice", NULL, ANG_KEY_DOWN, 0, scroll, -1, false, is_ready, NULL},

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/render/painter.h"
+#include "ui/theme.h"
 #include "ui/toolkit/input.h"
 #include "ui/toolkit/window.h"
 
@@ -15,14 +16,14 @@ typedef struct ang_rect {
     double x, y, width, height;
 } ang_rect;
 
-/* A colour: bytes r, g, b, a in memory. */
-typedef uint32_t ang_ink;
-#define ANG_INK(r, g, b, a) ((ang_ink)(r) | (ang_ink)(g) << 8 | (ang_ink)(b) << 16 | (ang_ink)(a) << 24)
-
 /* `font`: a TrueType file, NULL: a built-in font of Latin letters. The window serves pointer and clipboard. Not thread
  * safe; one at a time in a process. NULL with ANG_LIMIT. */
 ang_gui *ang_gui_create(ang_window *window, ang_painter *painter, const char *font, ang_error *err);
 void ang_gui_destroy(ang_gui *gui);
+
+/* Takes the colours of all widgets from `theme`, which must outlive the interface; before the first frame, or between
+ * frames. Dark until then. */
+void ang_gui_set_theme(ang_gui *gui, const ang_theme *theme);
 
 /* Begins a frame; makes letters anew where the scale has changed. False with what uploading them gives. */
 bool ang_gui_begin(ang_gui *gui, const ang_input *input, ang_error *err);

@@ -43,7 +43,7 @@ double ang_menus(ang_viewer *viewer) {
             const ang_action *action = &actions[i];
             char text[32];
             bool enabled = ang_action_enabled(viewer, action);
-            bool checked = action->checked && viewer->ready && action->checked(viewer, action->argument);
+            bool checked = action->checked && enabled && action->checked(viewer, action->argument);
             if (action->apart) ang_gui_menu_separator(gui);
             if (ang_gui_menu_item(gui, action->name, ang_action_shortcut(action, text), checked, enabled))
                 action->run(viewer, action->argument);

@@ -113,7 +113,10 @@ static void tell_host(ang_viewer *viewer) {
 }
 
 static bool draw_frame(ang_viewer *viewer, ang_error *err) {
-    static const float background[3] = {0, 0, 0};
+    const ang_ink gap = viewer->theme->gap;
+    const float background[3] = {(float)(gap & 255) / 255, (float)(gap >> 8 & 255) / 255,
+                                 (float)(gap >> 16 & 255) / 255};
+    ang_gui_set_theme(viewer->gui, viewer->theme);
     if (!ang_gui_begin(viewer->gui, &viewer->input, err)) return false;
     viewer->typing = ang_gui_typing(viewer->gui);
     if (viewer->message[0] && viewer->input.time_seconds > viewer->message_until) viewer->message[0] = '\0';
@@ -184,6 +187,7 @@ bool ang_viewer_run(const ang_viewer_host *host, const ang_viewer_options *optio
     ang_viewer *viewer = ang_alloc(1, sizeof *viewer, "the viewer", err);
     if (!viewer) return false;
     viewer->host = host;
+    viewer->theme = &ang_theme_dark;
     viewer->maximised = viewer->point = -1;
     viewer->gesture.pane = -1;
     viewer->hovered = ANG_PANES;

@@ -8,13 +8,7 @@
 #include "ui/panes/cutting.h"
 #include "ui/viewer.h"
 
-/* Colours of the panes (3D Slicer's), and what is written on pictures. */
-#define ANG_INK_TEXT   ANG_INK(224, 224, 224, 255)
-#define ANG_INK_DIM    ANG_INK(150, 150, 150, 255)
-#define ANG_INK_ACCENT ANG_INK(69, 153, 219, 255)
-#define ANG_INK_CROP   ANG_INK(94, 196, 255, 255)
-#define ANG_INK_CLIP   ANG_INK(255, 178, 66, 255)
-#define ANG_INK_BORDER ANG_INK(56, 56, 56, 255)
+/* Colours of the panes (3D Slicer's). */
 ang_ink ang_pane_ink(ang_pane pane, unsigned alpha);
 
 enum { ANG_THUMBNAILS = 128 }; /* the most presets that are shown */
@@ -71,6 +65,7 @@ typedef struct ang_viewer {
     ang_window *window;
     ang_painter *painter;
     ang_gui *gui;
+    const ang_theme *theme; /* of all but pictures */
     ang_input input;
     ang_loading loading;
     ang_study study;

@@ -85,7 +85,7 @@ void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane) {
 
 /* A cell of the status line, of a width that does not follow its text. */
 static void cell(ang_viewer *viewer, double *x, double y, double width, bool dim, const char *text) {
-    ang_gui_write(viewer->gui, *x, y, 0, true, false, dim ? ANG_INK_DIM : ANG_INK_TEXT, text);
+    ang_gui_write(viewer->gui, *x, y, 0, true, false, dim ? viewer->theme->dim : viewer->theme->text, text);
     *x += ang_gui_px(viewer->gui, width);
 }
 
@@ -133,7 +133,7 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect) {
     }
     if (viewer->message[0]) {
         double right = rect.x + rect.width - ang_gui_px(gui, 12);
-        ang_ink ink = viewer->message_bad ? ANG_INK(240, 140, 110, 255) : ANG_INK_ACCENT;
+        ang_ink ink = viewer->message_bad ? viewer->theme->bad : viewer->theme->accent;
         ang_gui_clip(gui, (ang_rect){x, rect.y, fmax(right - x, 0), rect.height});
         double width = ang_gui_text_width(gui, viewer->message, true);
         ang_gui_write(gui, fmax(right - width, x), y, 0, true, false, ink, viewer->message);

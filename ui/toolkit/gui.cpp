@@ -32,8 +32,8 @@ static bool make_letters(ang_gui *gui, double scale, ang_error *err) {
     io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
     if (!ang_painter_picture(gui->painter, &gui->letters, width, height, pixels, true, err)) return false;
     io.Fonts->SetTexID((ImTextureID)(intptr_t)gui->letters.name);
-    ang_gui_set_style(scale);
     gui->scale = scale;
+    ang_gui_set_style(gui);
     return true;
 }
 
@@ -83,6 +83,7 @@ ang_gui *ang_gui_create(ang_window *window, ang_painter *painter, const char *fo
     gui->window = window;
     gui->painter = painter;
     gui->held = -1;
+    gui->theme = &ang_theme_dark;
     read_font(font, gui->font);
     ImGui::CreateContext();
     ImGuiIO &io = ImGui::GetIO();
@@ -103,6 +104,12 @@ void ang_gui_destroy(ang_gui *gui) {
     ang_painter_forget(gui->painter, &gui->letters);
     ImGui::DestroyContext();
     delete gui;
+}
+
+void ang_gui_set_theme(ang_gui *gui, const ang_theme *theme) {
+    if (gui->theme == theme) return;
+    gui->theme = theme;
+    if (gui->scale > 0) ang_gui_set_style(gui);
 }
 
 bool ang_gui_begin(ang_gui *gui, const ang_input *input, ang_error *err) {

@@ -21,6 +21,7 @@ struct ang_gui {
     std::vector<char> font;
     ImFont *normal, *small;
     ang_paint_texture letters;
+    const ang_theme *theme;
     double scale, time;
     ang_input input;
     ang_cursor cursor;
@@ -33,9 +34,8 @@ struct ang_gui {
     std::vector<ang_paint_command> commands;
 };
 
-inline ImVec4 ang_gui_grey(float lightness, float alpha = 1) { return ImVec4(lightness, lightness, lightness, alpha); }
-/* Colours and sizes at a scale. */
-void ang_gui_set_style(double scale);
+/* Sizes at the scale of `gui`, and colours of its theme. */
+void ang_gui_set_style(const ang_gui *gui);
 /* Where the next area goes, and what makes it one that stays there. */
 void ang_gui_place(ang_rect rect);
 extern const ImGuiWindowFlags ang_gui_fixed;

@@ -1,43 +1,46 @@
 /* Colours and sizes. */
 #include "ui/toolkit/gui_private.hpp"
 
-/* Near-black greys and one accent colour (viewer conventions: panel 12 %, controls 18 %, text 88 %). */
-static void set_colours(ImGuiStyle &style) {
-    const ImVec4 accent(0.20f, 0.52f, 0.78f, 1), accent_light(0.27f, 0.60f, 0.86f, 1);
-    for (ImVec4 &colour : style.Colors) colour = ang_gui_grey(0.18f);
+#include <initializer_list>
+
+static void set_colours(ImGuiStyle &style, const ang_theme *theme) {
+    const auto of = [](ang_ink ink) { return ImGui::ColorConvertU32ToFloat4(ink); };
     ImVec4 *c = style.Colors;
-    c[ImGuiCol_Text] = ang_gui_grey(0.88f);
-    c[ImGuiCol_TextDisabled] = ang_gui_grey(0.56f);
-    c[ImGuiCol_WindowBg] = ang_gui_grey(0.12f);
-    c[ImGuiCol_ChildBg] = ang_gui_grey(0.12f, 0);
-    c[ImGuiCol_PopupBg] = ang_gui_grey(0.14f);
-    c[ImGuiCol_Border] = ang_gui_grey(0.26f);
-    c[ImGuiCol_BorderShadow] = ang_gui_grey(0, 0);
-    c[ImGuiCol_FrameBg] = c[ImGuiCol_Button] = ang_gui_grey(0.18f);
-    c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_ButtonHovered] = ang_gui_grey(0.24f);
-    c[ImGuiCol_FrameBgActive] = c[ImGuiCol_ButtonActive] = ang_gui_grey(0.29f);
-    c[ImGuiCol_MenuBarBg] = ang_gui_grey(0.12f);
-    c[ImGuiCol_ScrollbarBg] = ang_gui_grey(0.12f);
-    c[ImGuiCol_ScrollbarGrab] = ang_gui_grey(0.28f);
-    c[ImGuiCol_ScrollbarGrabHovered] = ang_gui_grey(0.36f);
-    c[ImGuiCol_ScrollbarGrabActive] = ang_gui_grey(0.42f);
-    c[ImGuiCol_CheckMark] = accent_light;
-    c[ImGuiCol_SliderGrab] = accent;
-    c[ImGuiCol_SliderGrabActive] = accent_light;
-    c[ImGuiCol_Header] = ImVec4(accent.x, accent.y, accent.z, 0.55f);
-    c[ImGuiCol_HeaderHovered] = ImVec4(accent.x, accent.y, accent.z, 0.40f);
-    c[ImGuiCol_HeaderActive] = ImVec4(accent.x, accent.y, accent.z, 0.70f);
-    c[ImGuiCol_Separator] = ang_gui_grey(0.22f);
-    c[ImGuiCol_PlotHistogram] = accent;
-    c[ImGuiCol_TextSelectedBg] = ImVec4(accent.x, accent.y, accent.z, 0.45f);
-    c[ImGuiCol_NavHighlight] = accent_light;
-    c[ImGuiCol_TableBorderLight] = c[ImGuiCol_TableBorderStrong] = ang_gui_grey(0.22f);
-    c[ImGuiCol_TableRowBg] = c[ImGuiCol_TableRowBgAlt] = ang_gui_grey(0, 0);
-    c[ImGuiCol_ModalWindowDimBg] = ang_gui_grey(0, 0.5f);
+    const struct {
+        ang_ink ink;
+        std::initializer_list<ImGuiCol> where;
+    } roles[] = {
+        {theme->text, {ImGuiCol_Text}},
+        {theme->dim, {ImGuiCol_TextDisabled}},
+        {theme->panel, {ImGuiCol_WindowBg, ImGuiCol_MenuBarBg, ImGuiCol_ScrollbarBg}},
+        {theme->raised, {ImGuiCol_PopupBg}},
+        {theme->edge, {ImGuiCol_Border}},
+        {theme->control, {ImGuiCol_FrameBg, ImGuiCol_Button, ImGuiCol_Tab, ImGuiCol_TabUnfocused}},
+        {theme->control_hovered, {ImGuiCol_FrameBgHovered, ImGuiCol_ButtonHovered}},
+        {theme->control_pressed, {ImGuiCol_FrameBgActive, ImGuiCol_ButtonActive, ImGuiCol_HeaderActive}},
+        {theme->chosen,
+         {ImGuiCol_Header, ImGuiCol_HeaderHovered, ImGuiCol_TextSelectedBg, ImGuiCol_TabHovered, ImGuiCol_TabActive,
+          ImGuiCol_TabUnfocusedActive}},
+        {theme->line,
+         {ImGuiCol_Separator, ImGuiCol_TableBorderLight, ImGuiCol_TableBorderStrong, ImGuiCol_TableHeaderBg}},
+        {theme->bar_grip, {ImGuiCol_ScrollbarGrab}},
+        {theme->dim, {ImGuiCol_ScrollbarGrabHovered, ImGuiCol_ScrollbarGrabActive}},
+        {theme->accent,
+         {ImGuiCol_CheckMark, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_PlotHistogram,
+          ImGuiCol_PlotLines, ImGuiCol_NavHighlight, ImGuiCol_SeparatorHovered, ImGuiCol_SeparatorActive,
+          ImGuiCol_DragDropTarget}},
+    };
+    for (ImVec4 *colour = c; colour < c + ImGuiCol_COUNT; colour++) *colour = of(theme->control);
+    for (const auto &role : roles)
+        for (ImGuiCol where : role.where) c[where] = of(role.ink);
+    for (ImGuiCol where : {ImGuiCol_ChildBg, ImGuiCol_BorderShadow, ImGuiCol_TableRowBg, ImGuiCol_TableRowBgAlt,
+                           ImGuiCol_NavWindowingDimBg})
+        c[where] = ImVec4(0, 0, 0, 0);
+    c[ImGuiCol_ModalWindowDimBg] = ImVec4(0, 0, 0, 0.5f);
 }
 
 /* A grid of 4 px, controls 24 px high at scale 1. */
-void ang_gui_set_style(double scale) {
+void ang_gui_set_style(const ang_gui *gui) {
     ImGuiStyle &style = ImGui::GetStyle();
     style = ImGuiStyle();
     style.WindowPadding = ImVec2(12, 8);
@@ -51,6 +54,6 @@ void ang_gui_set_style(double scale) {
     style.FrameBorderSize = 0;
     style.ScrollbarSize = 12;
     style.ScrollbarRounding = 6;
-    style.ScaleAllSizes((float)scale);
-    set_colours(style);
+    style.ScaleAllSizes((float)gui->scale);
+    set_colours(style, gui->theme);
 }

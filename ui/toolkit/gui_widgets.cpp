@@ -25,7 +25,7 @@ void ang_gui_message_begin(ang_gui *gui, const char *name) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2((float)ang_gui_px(gui, 24), (float)ang_gui_px(gui, 20)));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, (float)ang_gui_px(gui, 4));
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ang_gui_grey(0.14f));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::ColorConvertU32ToFloat4(gui->theme->raised));
     ImGui::Begin(name, nullptr,
                  (ang_gui_fixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize);
     /* Only for the message itself, not for tooltips in it. */
