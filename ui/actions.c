@@ -9,6 +9,7 @@ static const ang_window_preset windows[] = {{"Of the file", NAN, NAN}, {"CTA", 6
                                             {"Bone", 2000, 400},       {"Lung", 1500, -600}, {"Brain", 80, 40},
                                             {"Mediastinum", 350, 50},  {"Liver", 150, 70},   {"Stent", 2500, 700}};
 enum { window_count = sizeof windows / sizeof *windows };
+static const double zoom_step = 1.15; /* of a key, and of a turn of the wheel */
 
 static bool is_ready(const ang_viewer *viewer) { return viewer->ready; }
 static bool can_undo(const ang_viewer *viewer) { return viewer->ready && ang_history_can_undo(&viewer->history); }
@@ -20,16 +21,10 @@ static void open_path(ang_viewer *viewer, int argument) {
     viewer->opening = true;
 }
 
-/* The pane under the pointer, else the large one, else the volume. */
-static ang_pane chosen_pane(const ang_viewer *viewer) {
-    if (viewer->hovered < ANG_PANES) return viewer->hovered;
-    return viewer->maximised >= 0 ? (ang_pane)viewer->maximised : ANG_PANE_VOLUME;
-}
-
 static void save_pane(ang_viewer *viewer, int argument) {
     (void)argument;
     viewer->save_wanted = true;
-    viewer->save_pane = chosen_pane(viewer);
+    viewer->save_pane = (ang_pane)viewer->focus.pane;
 }
 
 static void save_window(ang_viewer *viewer, int argument) {
@@ -68,12 +63,16 @@ static void reset_slice(ang_viewer *viewer, int orientation) {
     viewer->slice[orientation].view = ang_slice_view_default;
 }
 
-static void reset_view(ang_viewer *viewer, int argument) {
-    (void)argument;
-    ang_pane pane = viewer->hovered;
-    for (int i = 0; i < ANG_ORIENTATIONS; i++)
-        if (pane == ANG_PANES || (int)pane == i) reset_slice(viewer, i);
-    if (pane == ANG_PANES || pane == ANG_PANE_VOLUME) viewer->document.view = ang_viewer_first_view;
+static void reset_pane(ang_viewer *viewer, int pane) {
+    if (pane == ANG_PANE_VOLUME)
+        viewer->document.view = ang_viewer_first_view;
+    else
+        reset_slice(viewer, pane);
+}
+
+static void reset_view(ang_viewer *viewer, int all) {
+    for (int i = 0; i < ANG_PANES; i++)
+        if (all || i == viewer->focus.pane) reset_pane(viewer, i);
 }
 
 static void centre_crosshair(ang_viewer *viewer, int argument) {
@@ -120,7 +119,7 @@ static bool is_tool(const ang_viewer *viewer, int tool) { return viewer->tool ==
 
 static void maximise(ang_viewer *viewer, int argument) {
     (void)argument;
-    viewer->maximised = viewer->maximised >= 0 ? -1 : (int)chosen_pane(viewer);
+    viewer->maximised = viewer->maximised >= 0 ? -1 : viewer->focus.pane;
 }
 static bool is_maximised(const ang_viewer *viewer, int argument) {
     (void)argument;
@@ -128,6 +127,18 @@ static bool is_maximised(const ang_viewer *viewer, int argument) {
 }
 
 static void toggle(bool *flag) { *flag = !*flag; }
+static void even_panes(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->grips.layout = ang_layout_even(&viewer->grips.layout, ANG_GRIP_CROSS);
+}
+static void toggle_panel(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->grips.layout.panel_hidden);
+}
+static bool shows_panel(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return !viewer->grips.layout.panel_hidden;
+}
 static void toggle_text(ang_viewer *viewer, int argument) {
     (void)argument;
     toggle(&viewer->corner_text);
@@ -158,10 +169,22 @@ static void full_screen(ang_viewer *viewer, int argument) {
 }
 
 static void scroll(ang_viewer *viewer, int slices) {
-    ang_pane pane = viewer->hovered < ANG_PANE_VOLUME ? viewer->hovered
-                    : viewer->maximised >= 0          ? (ang_pane)viewer->maximised
-                                                      : ANG_PANE_AXIAL;
-    if (pane < ANG_PANE_VOLUME) ang_slice_scroll(viewer, (ang_orientation)pane, slices);
+    if (viewer->focus.pane == ANG_PANE_VOLUME)
+        ang_focus_zoom(viewer, pow(zoom_step, slices));
+    else
+        ang_slice_scroll(viewer, (ang_orientation)viewer->focus.pane, slices);
+}
+
+static void zoom(ang_viewer *viewer, int steps) { ang_focus_zoom(viewer, pow(zoom_step, steps)); }
+
+static void show_palette(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_palette_open(viewer);
+}
+
+static void to_menus(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_gui_enter_menus(viewer->gui);
 }
 
 static void slab_thickness(ang_viewer *viewer, int direction) {
@@ -173,23 +196,22 @@ static void slab_thickness(ang_viewer *viewer, int direction) {
     viewer->document.slab_mm = steps[at < 0 ? 0 : at >= count ? count - 1 : at];
 }
 
-static void set_window(ang_viewer *viewer, int argument) {
-    const ang_preset *const *presets = viewer->host->presets;
-    if (viewer->hovered == ANG_PANE_VOLUME) {
-        int count = 0;
-        while (presets[count]) count++;
-        if (argument < count) ang_viewer_choose_preset(viewer, presets[argument]);
-        return;
-    }
-    double width = windows[argument].width, centre = windows[argument].centre;
-    if (argument == 0) ang_viewer_file_window(viewer, &centre, &width);
+void ang_window_preset_choose(ang_viewer *viewer, int index) {
+    double width = windows[index].width, centre = windows[index].centre;
+    if (index == 0) ang_viewer_file_window(viewer, &centre, &width);
     viewer->document.window_centre = centre;
     viewer->document.window_width = width;
 }
 
-void ang_window_preset_choose(ang_viewer *viewer, int index) {
-    viewer->hovered = ANG_PANES; /* from the menu it is the window that is meant */
-    set_window(viewer, index);
+/* Keys 1 to 9: a preset of the volume, a window of slices. */
+static void choose_number(ang_viewer *viewer, int index) {
+    const ang_preset *const *presets = viewer->host->presets;
+    int count = 0;
+    while (presets[count]) count++;
+    if (viewer->focus.pane != ANG_PANE_VOLUME)
+        ang_window_preset_choose(viewer, index);
+    else if (index < count)
+        ang_viewer_choose_preset(viewer, presets[index]);
 }
 
 static void browse(ang_viewer *viewer, int argument) {
@@ -209,8 +231,8 @@ enum { C = ANG_MOD_CONTROL, S = ANG_MOD_SHIFT, A = ANG_MOD_ALT };
 
 static const ang_action actions[] = {
     {"File", "Open...", "a folder or file; or drop it on the window", 'O', C, open_path, 0, false, NULL, NULL},
-    {"File", "Save picture of the pane", "under the pointer; refined, without writing on it", 'S', C, save_pane, 0,
-     true, is_ready, NULL},
+    {"File", "Save picture of the pane", "the one with the bright frame; refined, without writing on it", 'S', C,
+     save_pane, 0, true, is_ready, NULL},
     {"File", "Save picture of the window", NULL, 'S', C | S, save_window, 0, false, NULL, NULL},
     {"File", "Save preset", "the transfer function and modes as shown, a file for --preset", 'P', C, save_preset, 0,
      false, is_ready, NULL},
@@ -235,9 +257,12 @@ static const ang_action actions[] = {
     {"Tools", "Clip plane's other side", NULL, 'K', S, ang_clip_flip, 0, false, has_clip_plane, NULL},
     {"Tools", "Clip plane on", NULL, 'K', A, ang_clip_toggle, 0, false, is_ready, is_clipped},
     {"Tools", "Crosshair to the centre", NULL, ANG_KEY_HOME, 0, centre_crosshair, 0, true, is_ready, NULL},
-    {"View", "Reset view", "of the pane under the pointer, else of all", 'R', 0, reset_view, 0, false, is_ready, NULL},
+    {"View", "Reset view", "of the pane with the bright frame", 'R', 0, reset_view, 0, false, is_ready, NULL},
+    {"View", "Reset all views", NULL, 'R', S, reset_view, 1, false, is_ready, NULL},
+    {"View", "Zoom in", "about the pane's middle; also Ctrl and wheel, or right drag", '+', 0, zoom, 1, false, is_ready,
+     NULL},
+    {"View", "Zoom out", NULL, '-', 0, zoom, -1, false, is_ready, NULL},
     {"View", "Pictures of the presets", NULL, 'B', 0, browse, 0, false, is_ready, NULL},
-    {"View", "One pane large", "also a double click", ANG_KEY_ENTER, 0, maximise, 0, false, is_ready, is_maximised},
     {"View", "Anterior", NULL, 'A', A, standard_view, 0, true, is_ready, NULL},
     {"View", "Posterior", NULL, 'P', A, standard_view, 1, false, is_ready, NULL},
     {"View", "Left", NULL, 'L', A, standard_view, 2, false, is_ready, NULL},
@@ -251,14 +276,23 @@ static const ang_action actions[] = {
     {"View", "Text on the panes", NULL, 'T', 0, toggle_text, 0, false, is_ready, shows_text},
     {"View", "Light theme", "of all but the pictures", 0, 0, toggle_theme, 0, true, NULL, is_light},
     {"View", "Full screen", NULL, ANG_KEY_F11, 0, full_screen, 0, false, NULL, NULL},
-    {"Slices", "Next slice", "also the wheel; of the slice under the pointer, else axial", ANG_KEY_UP, 0, scroll, 1,
-     false, is_ready, NULL},
+    {"Layout", "One pane large", "also a double click", ANG_KEY_ENTER, 0, maximise, 0, false, is_ready, is_maximised},
+    {"Layout", "Panes of equal size", "also a double click on the gap between them", '0', C, even_panes, 0, false,
+     is_ready, NULL},
+    {"Layout", "Side panel", NULL, 'B', C, toggle_panel, 0, false, is_ready, shows_panel},
+    {"Layout", "Next pane", "whose frame is bright: keys apply to it", ANG_KEY_F6, 0, ang_focus_cycle, 1, true,
+     is_ready, NULL},
+    {"Layout", "Previous pane", NULL, ANG_KEY_F6, S, ang_focus_cycle, -1, false, is_ready, NULL},
+    {"Slices", "Next slice", "also the wheel; in the 3D pane it zooms", ANG_KEY_UP, 0, scroll, 1, false, is_ready,
+     NULL},
     {"Slices", "Previous slice", NULL, ANG_KEY_DOWN, 0, scroll, -1, false, is_ready, NULL},
     {"Slices", "Ten slices on", NULL, ANG_KEY_PAGE_UP, 0, scroll, 10, false, is_ready, NULL},
     {"Slices", "Ten slices back", NULL, ANG_KEY_PAGE_DOWN, 0, scroll, -10, false, is_ready, NULL},
     {"Slices", "Thicker slab", NULL, ']', 0, slab_thickness, 1, true, is_ready, NULL},
     {"Slices", "Thinner slab", NULL, '[', 0, slab_thickness, -1, false, is_ready, NULL},
+    {"Help", "Find a command...", "type a part of its name", 'K', C, show_palette, 0, false, NULL, NULL},
     {"Help", "What keys and mouse do", NULL, ANG_KEY_F1, 0, show_help, 0, false, NULL, NULL},
+    {"Help", "To the menus", "then arrows and Enter; Esc leaves them", ANG_KEY_F10, 0, to_menus, 0, false, NULL, NULL},
     {"Help", "What loading assumed", NULL, ANG_KEY_F2, 0, show_notes, 0, false, has_notes, NULL},
 };
 enum { action_count = sizeof actions / sizeof *actions };
@@ -280,14 +314,19 @@ bool ang_action_enabled(const ang_viewer *viewer, const ang_action *action) {
 /* What is open or under way ends, the foremost first. */
 static void escape(ang_viewer *viewer) {
     ang_gesture *gesture = &viewer->gesture;
+    if (ang_grips_cancel(viewer)) return;
     bool dragging = gesture->pane >= 0 && !gesture->cancelled && ang_gui_holding(viewer->gui);
     if (dragging) {
         viewer->document = gesture->before;
         viewer->crosshair = gesture->crosshair;
         if (gesture->pane < ANG_PANE_VOLUME) viewer->slice[gesture->pane].view = gesture->view;
         gesture->cancelled = true;
+    } else if (viewer->palette.open) {
+        viewer->palette.open = false;
     } else if (viewer->opening || viewer->help || viewer->notes || viewer->browsing) {
         viewer->opening = viewer->help = viewer->notes = viewer->browsing = false;
+    } else if (ang_gui_navigating(viewer->gui)) {
+        ang_gui_leave_widgets(viewer->gui);
     } else if (viewer->loading.running) {
         ang_loading_stop(&viewer->loading);
     } else if (viewer->failure[0] && viewer->ready) {
@@ -297,14 +336,40 @@ static void escape(ang_viewer *viewer) {
     }
 }
 
+/* What other programs have taught hands, and what other keyboards print on the same key. */
+static const struct {
+    int key;
+    unsigned modifiers;
+    int same;
+    unsigned same_modifiers;
+} aliases[] = {{'P', C | S, 'K', C},
+               {'Y', C, 'Z', C | S},
+               {ANG_KEY_TAB, C, ANG_KEY_F6, 0},
+               {ANG_KEY_TAB, C | S, ANG_KEY_F6, S},
+               {'=', 0, '+', 0},
+               {'=', S, '+', 0},
+               {'+', S, '+', 0}};
+
 static void press(ang_viewer *viewer, int key, unsigned modifiers) {
+    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
+        if (aliases[i].key == key && aliases[i].modifiers == modifiers) {
+            key = aliases[i].same;
+            modifiers = aliases[i].same_modifiers;
+            break;
+        }
     for (int i = 0; i < action_count; i++) {
         const ang_action *action = &actions[i];
         if (action->key != key || action->modifiers != modifiers) continue;
         if (ang_action_enabled(viewer, action)) action->run(viewer, action->argument);
         return;
     }
-    if (key >= '1' && key < '1' + window_count && modifiers == 0 && viewer->ready) set_window(viewer, key - '1');
+    if (!viewer->ready || ang_focus_arrow(viewer, key, modifiers)) return;
+    if (key >= '1' && key < '1' + window_count && modifiers == 0) choose_number(viewer, key - '1');
+}
+
+/* Keys that the widget with the keyboard uses. */
+static bool is_widgets(int key) {
+    return key == ANG_KEY_SPACE || key == ANG_KEY_ENTER || (key >= ANG_KEY_LEFT && key <= ANG_KEY_END);
 }
 
 void ang_actions_keys(ang_viewer *viewer) {
@@ -318,7 +383,8 @@ void ang_actions_keys(ang_viewer *viewer) {
                 escape(viewer);
             continue;
         }
-        if (key == ANG_KEY_NONE || viewer->typing || ang_gui_popup_open(viewer->gui)) continue;
-        press(viewer, key, input->press[i].modifiers);
+        bool taken = viewer->typing || viewer->palette.open || ang_gui_popup_open(viewer->gui) ||
+                     (is_widgets(key) && ang_gui_navigating(viewer->gui));
+        if (key != ANG_KEY_NONE && !taken) press(viewer, key, input->press[i].modifiers);
     }
 }

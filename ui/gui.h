@@ -41,6 +41,16 @@ bool ang_gui_popup_open(const ang_gui *gui);
 /* Closes it. */
 void ang_gui_close_popups(ang_gui *gui);
 
+/* Whether widgets have the keyboard, as they do from Tab to Esc or a click, and while a menu is open: arrows, Enter and
+ * Space are then theirs. */
+bool ang_gui_navigating(const ang_gui *gui);
+/* Whether a widget's value is being changed by keys. */
+bool ang_gui_adjusting(const ang_gui *gui);
+/* Gives the keyboard to the widget that had it last or the first, with the next frame; to the bar of menus; to none. */
+void ang_gui_enter_widgets(ang_gui *gui);
+void ang_gui_enter_menus(ang_gui *gui);
+void ang_gui_leave_widgets(ang_gui *gui);
+
 /* A part of the window that does not move, with widgets from top to bottom. `solid`: filled as a panel. To be ended in
  * any case. */
 void ang_gui_area_begin(ang_gui *gui, const char *name, ang_rect rect, bool solid);
@@ -86,6 +96,14 @@ void ang_gui_progress(ang_gui *gui, double fraction, double width);
 void ang_gui_tooltip(ang_gui *gui, const char *text);
 double ang_gui_room(const ang_gui *gui); /* pixels left to the right of where the next widget goes */
 
+/* A list of rows that scrolls, `rows` of them in view; Tab passes over it. To be ended in any case. */
+void ang_gui_list_begin(ang_gui *gui, const char *name, double width, int rows);
+void ang_gui_list_end(ang_gui *gui);
+/* With dim words at its right end; true where it was clicked. */
+bool ang_gui_row(ang_gui *gui, const char *label, const char *right, bool chosen, bool enabled);
+/* Brings the row before into view. */
+void ang_gui_list_show(ang_gui *gui);
+
 /* A list in columns. */
 bool ang_gui_table_begin(ang_gui *gui, const char *name, int columns);
 void ang_gui_table_next(ang_gui *gui); /* to the next cell */
@@ -105,13 +123,19 @@ typedef struct ang_canvas {
     double start_x, start_y; /* where `held` or `released` went down */
     double wheel;            /* turns, up positive; 0 where not hovered */
     unsigned modifiers;      /* ANG_MOD_* */
+    bool focused;            /* it has the keyboard; only among widgets, and to be shown by its owner */
+    bool activated;          /* by Enter or Space, while it has the keyboard */
 } ang_canvas;
 
 /* A pane of its own at `rect`, black; draw until its end. To be ended in any case. */
 void ang_gui_pane_begin(ang_gui *gui, const char *name, ang_rect rect, ang_canvas *canvas);
 void ang_gui_pane_end(ang_gui *gui);
+/* The same over the panes that are begun later, and clear. */
+void ang_gui_grip_begin(ang_gui *gui, const char *name, ang_rect rect, ang_canvas *canvas);
 /* A canvas among widgets. */
 void ang_gui_canvas(ang_gui *gui, const char *name, double width, double height, ang_canvas *canvas);
+/* The canvas before uses arrows itself while it has the keyboard; Tab still leaves it. */
+void ang_gui_canvas_arrows(ang_gui *gui);
 
 /* Drawing, in pixels of the window, onto the area or pane that is open. `small`: the smaller of the two sizes of
  * letters. */

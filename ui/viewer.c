@@ -27,18 +27,6 @@ void ang_viewer_say(ang_viewer *viewer, bool bad, const char *format, ...) {
     viewer->message_until = ang_now_ms() / 1000 + message_seconds;
 }
 
-/* Two by two, or one of them large. */
-static void place_panes(ang_viewer *viewer, ang_rect all) {
-    double gap = ang_gui_px(viewer->gui, 2);
-    double width = floor((all.width - gap) / 2), height = floor((all.height - gap) / 2);
-    for (int i = 0; i < ANG_PANES; i++) {
-        bool right = i % 2, low = i / 2;
-        viewer->pane[i] = (ang_rect){right ? all.x + width + gap : all.x, low ? all.y + height + gap : all.y,
-                                     right ? all.width - width - gap : width, low ? all.height - height - gap : height};
-        if (viewer->maximised >= 0) viewer->pane[i] = i == viewer->maximised ? all : (ang_rect){0};
-    }
-}
-
 static void panes(ang_viewer *viewer) {
     viewer->hovered = ANG_PANES;
     viewer->hovered_hu = NAN;
@@ -54,15 +42,25 @@ static void panes(ang_viewer *viewer) {
 static void layout(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     const ang_input *input = &viewer->input;
-    double top = ang_menus(viewer), status = ang_gui_px(gui, 24), side = viewer->ready ? ang_gui_px(gui, 320) : 0;
-    double tall = input->height - top - status;
+    ang_grips *grips = &viewer->grips;
+    grips->frame = (ang_layout_frame){.width = input->width,
+                                      .height = input->height,
+                                      .top = ang_menus(viewer),
+                                      .bottom = ang_gui_px(gui, 24),
+                                      .scale = input->scale,
+                                      .maximised = viewer->maximised};
+    ang_layout_places places = ang_layout_place(&grips->layout, &grips->frame);
     if (viewer->ready) {
-        ang_panel(viewer, (ang_rect){0, top, side, tall});
-        place_panes(viewer, (ang_rect){side, top, input->width - side, tall});
+        ang_grips_show(viewer, &places);
+        places = ang_layout_place(&grips->layout, &grips->frame);
+        memcpy(viewer->pane, places.pane, sizeof viewer->pane);
+        if (places.panel.width >= 1) ang_panel(viewer, places.panel);
         panes(viewer);
+        ang_focus_follow(viewer);
     }
-    ang_status_line(viewer, (ang_rect){0, top + tall, input->width, status});
+    ang_status_line(viewer, places.status);
     ang_messages(viewer);
+    ang_palette_show(viewer);
 }
 
 void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
@@ -128,8 +126,8 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
     ang_window_show(viewer->window);
     viewer->frames++;
     if (viewer->input.since_seconds > 0) viewer->latency_ms = ang_now_ms() - 1000 * viewer->input.since_seconds;
-    if (viewer->ready && !ang_gui_holding(viewer->gui) && !viewer->typing)
-        ang_history_note(&viewer->history, &viewer->document, viewer->input.time_seconds);
+    bool changing = ang_gui_holding(viewer->gui) || ang_gui_adjusting(viewer->gui) || viewer->typing;
+    if (viewer->ready && !changing) ang_history_note(&viewer->history, &viewer->document, viewer->input.time_seconds);
     if (viewer->save_wanted && viewer->ready) ang_save_pane(viewer);
     return ang_painter_check(viewer->painter, err);
 }
@@ -188,6 +186,7 @@ bool ang_viewer_run(const ang_viewer_host *host, const ang_viewer_options *optio
     if (!viewer) return false;
     viewer->host = host;
     viewer->theme = &ang_theme_dark;
+    viewer->grips = (ang_grips){.layout = ang_layout_default, .held = -1};
     viewer->maximised = viewer->point = -1;
     viewer->gesture.pane = -1;
     viewer->hovered = ANG_PANES;

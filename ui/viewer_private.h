@@ -3,9 +3,12 @@
 #define ANG_UI_VIEWER_PRIVATE_H
 
 #include "core/volume/histogram.h"
+#include "ui/focus.h"
+#include "ui/grips.h"
 #include "ui/gui.h"
 #include "ui/loading.h"
 #include "ui/panes/cutting.h"
+#include "ui/palette.h"
 #include "ui/viewer.h"
 
 /* Colours of the panes (3D Slicer's). */
@@ -85,6 +88,9 @@ typedef struct ang_viewer {
     ang_tool tool;
     int maximised; /* ang_pane, -1: none */
     ang_rect pane[ANG_PANES];
+    ang_grips grips;
+    ang_focus focus;
+    ang_palette palette;
     ang_pane hovered;
     double hovered_hu; /* NaN: none */
     ang_vec3 hovered_mm;
@@ -169,6 +175,9 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine);
 double ang_volume_refine_in(const ang_viewer *viewer);
 void ang_volume_picture_clear(ang_viewer *viewer);
 void ang_volume_set_method(ang_viewer *viewer, int choice);
+/* About the pane's middle; by pixels. */
+void ang_volume_zoom(ang_viewer *viewer, double factor);
+void ang_volume_pan(ang_viewer *viewer, double right, double down);
 /* The first place along a pixel's ray that shows; false where there is none. */
 bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm);
 

@@ -48,14 +48,15 @@ static bool show_one(ang_viewer *viewer, const ang_preset *preset, int index) {
     ang_gui_fill(gui, picture, ANG_INK(0, 0, 0, 255));
     if (index < viewer->thumbnails) ang_gui_picture(gui, &viewer->thumbnail[index], picture);
     bool chosen = strcmp(preset->name, viewer->document.preset) == 0;
-    ang_ink border = chosen ? ANG_INK_ACCENT : canvas.hovered ? ANG_INK_TEXT : ANG_INK_BORDER;
+    bool lit = canvas.hovered || canvas.focused;
+    ang_ink border = chosen ? viewer->theme->accent : lit ? viewer->theme->text : viewer->theme->edge;
     ang_gui_frame(gui, picture, border);
     ang_gui_clip(gui, canvas.rect);
     ang_gui_write(gui, picture.x + width / 2, picture.y + height + ang_gui_px(gui, 3), 0.5, true, false,
-                  chosen || canvas.hovered ? ANG_INK_TEXT : ANG_INK_DIM, preset->name);
+                  chosen || lit ? viewer->theme->text : viewer->theme->dim, preset->name);
     ang_gui_unclip(gui);
     ang_gui_tooltip(gui, preset->description);
-    return canvas.clicked && canvas.released == ANG_BUTTON_LEFT;
+    return canvas.activated || (canvas.clicked && canvas.released == ANG_BUTTON_LEFT);
 }
 
 void ang_thumbnails_show(ang_viewer *viewer) {

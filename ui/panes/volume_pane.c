@@ -15,6 +15,17 @@ static void zoom(ang_viewer *viewer, ang_rect rect, double x, double y, double f
     ang_view_zoom(&viewer->document.view, viewer->study.volume, (int)rect.width, (int)rect.height, x, y, factor);
 }
 
+void ang_volume_zoom(ang_viewer *viewer, double factor) {
+    ang_rect rect = viewer->pane[ANG_PANE_VOLUME];
+    zoom(viewer, rect, rect.width / 2, rect.height / 2, factor);
+}
+
+void ang_volume_pan(ang_viewer *viewer, double right, double down) {
+    double mm = scale_of(viewer, viewer->pane[ANG_PANE_VOLUME]);
+    viewer->document.view.pan_mm[0] -= right * mm;
+    viewer->document.view.pan_mm[1] += down * mm;
+}
+
 /* As 3D Slicer: up and down shift, across stretches. */
 static void bend(ang_viewer *viewer, const ang_canvas *canvas) {
     const ang_document *before = &viewer->gesture.before;
@@ -46,9 +57,7 @@ static void drag(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
         canvas->held == ANG_BUTTON_MIDDLE ||
         (canvas->held == ANG_BUTTON_LEFT && (viewer->input.key[ANG_KEY_SPACE] || viewer->tool == ANG_TOOL_PAN));
     if (panning) {
-        double mm = scale_of(viewer, rect);
-        view->pan_mm[0] -= canvas->dx * mm;
-        view->pan_mm[1] += canvas->dy * mm;
+        ang_volume_pan(viewer, canvas->dx, canvas->dy);
     } else if (canvas->held == ANG_BUTTON_RIGHT) {
         zoom(viewer, rect, canvas->start_x, canvas->start_y, exp(-canvas->dy / (150 * viewer->input.scale)));
     } else if (viewer->gesture.strengthens) {

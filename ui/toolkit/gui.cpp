@@ -41,8 +41,7 @@ static const char *clipboard_get(void *window) { return ang_window_clipboard((an
 static void clipboard_set(void *window, const char *text) { ang_window_set_clipboard((ang_window *)window, text); }
 
 static void map_keys(ImGuiIO &io) {
-    static const int pairs[][2] = {{ImGuiKey_Tab, ANG_KEY_TAB},
-                                   {ImGuiKey_LeftArrow, ANG_KEY_LEFT},
+    static const int pairs[][2] = {{ImGuiKey_LeftArrow, ANG_KEY_LEFT},
                                    {ImGuiKey_RightArrow, ANG_KEY_RIGHT},
                                    {ImGuiKey_UpArrow, ANG_KEY_UP},
                                    {ImGuiKey_DownArrow, ANG_KEY_DOWN},
@@ -87,6 +86,7 @@ ang_gui *ang_gui_create(ang_window *window, ang_painter *painter, const char *fo
     read_font(font, gui->font);
     ImGui::CreateContext();
     ImGuiIO &io = ImGui::GetIO();
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors | ImGuiBackendFlags_RendererHasVtxOffset;
@@ -129,6 +129,7 @@ bool ang_gui_begin(ang_gui *gui, const ang_input *input, ang_error *err) {
     io.KeyAlt = input->modifiers & ANG_MOD_ALT;
     for (int i = 0; i < input->character_count; i++) io.AddInputCharacter(input->characters[i]);
     gui->cursor = ANG_CURSOR_ARROW;
+    ang_gui_take_keys(gui);
     ImGui::NewFrame();
     ImGui::PushFont(gui->normal);
     return true;
@@ -203,4 +204,4 @@ bool ang_gui_popup_open(const ang_gui *) {
     return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
-void ang_gui_close_popups(ang_gui *) { ImGui::ClosePopupToLevel(0, false); }
+void ang_gui_close_popups(ang_gui *) { ImGui::ClosePopupToLevel(0, true); }

@@ -44,24 +44,34 @@ static void read_canvas(ang_gui *gui, ang_rect rect, ang_canvas *canvas) {
 static const ImGuiButtonFlags all_buttons =
     ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle;
 
-void ang_gui_pane_begin(ang_gui *gui, const char *name, ang_rect rect, ang_canvas *canvas) {
+static void begin_canvas(ang_gui *gui, const char *name, ang_rect rect, ImGuiWindowFlags more, ang_canvas *canvas) {
     ang_gui_place(rect);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32_BLACK);
-    ImGui::Begin(name, nullptr, ang_gui_fixed | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::Begin(name, nullptr, ang_gui_fixed | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse | more);
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(2);
     ImGui::InvisibleButton("canvas", ImVec2(std::fmax((float)rect.width, 1.0f), std::fmax((float)rect.height, 1.0f)),
                            all_buttons);
     read_canvas(gui, rect, canvas);
 }
+void ang_gui_pane_begin(ang_gui *gui, const char *name, ang_rect rect, ang_canvas *canvas) {
+    begin_canvas(gui, name, rect, 0, canvas);
+}
+void ang_gui_grip_begin(ang_gui *gui, const char *name, ang_rect rect, ang_canvas *canvas) {
+    begin_canvas(gui, name, rect, ImGuiWindowFlags_NoBackground, canvas);
+}
 void ang_gui_pane_end(ang_gui *) { ImGui::End(); }
 
 void ang_gui_canvas(ang_gui *gui, const char *name, double width, double height, ang_canvas *canvas) {
     ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton(name, ImVec2((float)width, (float)height), all_buttons);
+    bool pressed = ImGui::InvisibleButton(name, ImVec2((float)width, (float)height), all_buttons);
     read_canvas(gui, ang_rect{(double)at.x, (double)at.y, width, height}, canvas);
+    ang_gui_note_stop(gui);
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    canvas->focused = gui->navigating && g.NavId == ImGui::GetItemID() && !g.NavDisableHighlight;
+    canvas->activated = pressed && canvas->focused && gui->held < 0 && canvas->released < 0;
     /* Otherwise the wheel would scroll the panel as well. */
     if (canvas->hovered) ImGui::SetItemUsingMouseWheel();
 }

@@ -15,6 +15,13 @@ extern "C" {
 #include <cstring>
 #include <vector>
 
+/* A widget that Tab goes to. */
+struct ang_gui_stop {
+    ImGuiID id, scope;
+    ImGuiWindow *window;
+    ImRect rect; /* from where the window's contents start */
+};
+
 struct ang_gui {
     ang_window *window;
     ang_painter *painter;
@@ -29,6 +36,16 @@ struct ang_gui {
     ImGuiID holder;
     double start_x, start_y, last_x, last_y;
     bool moved;
+    /* Who has the keyboard (gui_focus.cpp). */
+    std::vector<ang_gui_stop> stops; /* in the order of the frame */
+    ImGuiWindow *dialog;             /* in front; nullptr: none */
+    ImGuiID before;                  /* the widget that had the keyboard before the dialog; 0: none */
+    ImGuiID arrows_of;               /* a canvas that uses arrows itself; 0: none */
+    bool navigating;                 /* widgets have the keyboard */
+    bool bar, menus_wanted;          /* the bar of menus has it; it is to have it */
+    int bar_frames;                  /* without a menu, before the bar is left */
+    bool by_keys;                    /* the last that was done was done by a key */
+    int waiting_step;                /* of Tab, for the next frame; 0: none */
     std::vector<ang_paint_vertex> vertices;
     std::vector<uint16_t> indices;
     std::vector<ang_paint_command> commands;
@@ -39,5 +56,13 @@ void ang_gui_set_style(const ang_gui *gui);
 /* Where the next area goes, and what makes it one that stays there. */
 void ang_gui_place(ang_rect rect);
 extern const ImGuiWindowFlags ang_gui_fixed;
+/* Before a frame: which keys Dear ImGui gets. */
+void ang_gui_take_keys(ang_gui *gui);
+/* After a widget: Tab goes to it. */
+void ang_gui_note_stop(ang_gui *gui);
+/* After a dialog's begin. */
+void ang_gui_dialog_opened(ang_gui *gui);
+/* After the first menu's label. */
+void ang_gui_menu_focus(ang_gui *gui);
 
 #endif

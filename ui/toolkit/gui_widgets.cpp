@@ -2,8 +2,7 @@
 #include "ui/toolkit/gui_private.hpp"
 
 const ImGuiWindowFlags ang_gui_fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                                       ImGuiWindowFlags_NoBringToFrontOnFocus;
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 void ang_gui_place(ang_rect rect) {
     ImGui::SetNextWindowPos(ImVec2((float)rect.x, (float)rect.y));
@@ -32,6 +31,7 @@ void ang_gui_message_begin(ang_gui *gui, const char *name) {
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(3);
     ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+    ang_gui_dialog_opened(gui);
 }
 
 void ang_gui_message_end(ang_gui *) { ImGui::End(); }
@@ -46,7 +46,11 @@ void ang_gui_menu_bar_end(ang_gui *) {
     ImGui::EndMainMenuBar();
     ImGui::PopStyleVar();
 }
-bool ang_gui_menu_begin(ang_gui *, const char *label) { return ImGui::BeginMenu(label); }
+bool ang_gui_menu_begin(ang_gui *gui, const char *label) {
+    bool open = ImGui::BeginMenu(label);
+    if (!open) ang_gui_menu_focus(gui);
+    return open;
+}
 void ang_gui_menu_end(ang_gui *) { ImGui::EndMenu(); }
 void ang_gui_menu_separator(ang_gui *) { ImGui::Separator(); }
 bool ang_gui_menu_item(ang_gui *, const char *label, const char *shortcut, bool checked, bool enabled) {
@@ -96,20 +100,33 @@ void ang_gui_gap(ang_gui *, double height) { ImGui::Dummy(ImVec2(0, (float)heigh
 
 static void next_width(double width) { ImGui::SetNextItemWidth(width > 0 ? (float)width : -1); }
 
-bool ang_gui_button(ang_gui *, const char *label, double width, bool enabled) {
+bool ang_gui_button(ang_gui *gui, const char *label, double width, bool enabled) {
     ImGui::BeginDisabled(!enabled);
     bool pressed = ImGui::Button(label, ImVec2((float)width, 0));
+    ang_gui_note_stop(gui);
     ImGui::EndDisabled();
     return pressed;
 }
-bool ang_gui_checkbox(ang_gui *, const char *label, bool *value) { return ImGui::Checkbox(label, value); }
-bool ang_gui_selectable(ang_gui *, const char *label, bool selected) { return ImGui::Selectable(label, selected); }
+bool ang_gui_checkbox(ang_gui *gui, const char *label, bool *value) {
+    bool changed = ImGui::Checkbox(label, value);
+    ang_gui_note_stop(gui);
+    return changed;
+}
+bool ang_gui_selectable(ang_gui *gui, const char *label, bool selected) {
+    bool chosen = ImGui::Selectable(label, selected);
+    ang_gui_note_stop(gui);
+    return chosen;
+}
 
-bool ang_gui_choice(ang_gui *, const char *name, const char *const *words, int count, int *chosen, double width) {
+bool ang_gui_choice(ang_gui *gui, const char *name, const char *const *words, int count, int *chosen, double width) {
     next_width(width);
     bool known = *chosen >= 0 && *chosen < count;
     bool changed = false;
-    if (!ImGui::BeginCombo(name, known ? words[*chosen] : "", ImGuiComboFlags_HeightLarge)) return false;
+    bool open = ImGui::BeginCombo(name, known ? words[*chosen] : "", ImGuiComboFlags_HeightLarge);
+    if (!open) {
+        ang_gui_note_stop(gui);
+        return false;
+    }
     for (int i = 0; i < count; i++) {
         if (ImGui::Selectable(words[i], i == *chosen) && i != *chosen) {
             *chosen = i;
@@ -132,30 +149,35 @@ bool ang_gui_number(ang_gui *gui, const char *name, double *value, double speed,
     bool changed = ImGui::DragScalar(name, ImGuiDataType_Double, value, (float)speed, &low, &high, format,
                                      ImGuiSliderFlags_AlwaysClamp);
     io.KeyShift = shift;
+    ang_gui_note_stop(gui);
     return changed;
 }
 
-bool ang_gui_number_field(ang_gui *, const char *name, double *value, const char *format, double width) {
+bool ang_gui_number_field(ang_gui *gui, const char *name, double *value, const char *format, double width) {
     next_width(width);
     double typed = *value;
     ImGui::InputDouble(name, &typed, 0, 0, format);
+    ang_gui_note_stop(gui);
     if (!ImGui::IsItemDeactivatedAfterEdit() || !std::isfinite(typed)) return false;
     bool changed = typed < *value || typed > *value;
     *value = typed;
     return changed;
 }
 
-bool ang_gui_text_field(ang_gui *, const char *name, char *text, size_t size, double width) {
+bool ang_gui_text_field(ang_gui *gui, const char *name, char *text, size_t size, double width) {
     next_width(width);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    return ImGui::InputText(name, text, size, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool entered = ImGui::InputText(name, text, size, ImGuiInputTextFlags_EnterReturnsTrue);
+    ang_gui_note_stop(gui);
+    return entered;
 }
 
-bool ang_gui_colour(ang_gui *, const char *name, double colour[3]) {
+bool ang_gui_colour(ang_gui *gui, const char *name, double colour[3]) {
     float value[3] = {(float)colour[0], (float)colour[1], (float)colour[2]};
-    if (!ImGui::ColorEdit3(name, value,
-                           ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_NoTooltip))
-        return false;
+    bool changed = ImGui::ColorEdit3(
+        name, value, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_NoTooltip);
+    ang_gui_note_stop(gui);
+    if (!changed) return false;
     for (int i = 0; i < 3; i++) colour[i] = std::fmin(std::fmax((double)value[i], 0.0), 1.0);
     return true;
 }
@@ -178,3 +200,30 @@ bool ang_gui_table_begin(ang_gui *, const char *name, int columns) {
 }
 void ang_gui_table_next(ang_gui *) { ImGui::TableNextColumn(); }
 void ang_gui_table_end(ang_gui *) { ImGui::EndTable(); }
+
+void ang_gui_list_begin(ang_gui *, const char *name, double width, int rows) {
+    float tall = (float)rows * ImGui::GetFrameHeight();
+    ImGui::BeginChild(name, ImVec2((float)width, tall), false, ImGuiWindowFlags_NoNav);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
+}
+void ang_gui_list_end(ang_gui *) {
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+}
+bool ang_gui_row(ang_gui *, const char *label, const char *right, bool chosen, bool enabled) {
+    float tall = ImGui::GetFrameHeight(), inset = ImGui::GetStyle().FramePadding.x;
+    ImVec2 at = ImGui::GetCursorScreenPos(), room(ImGui::GetContentRegionAvail().x, tall);
+    ImGui::PushID(label);
+    ImGui::BeginDisabled(!enabled);
+    bool pressed = ImGui::Selectable("##row", chosen, 0, room);
+    float y = at.y + (tall - ImGui::GetFontSize()) / 2;
+    ImDrawList *sheet = ImGui::GetWindowDrawList();
+    sheet->AddText(ImVec2(at.x + inset, y), ImGui::GetColorU32(ImGuiCol_Text), label,
+                   ImGui::FindRenderedTextEnd(label));
+    sheet->AddText(ImVec2(at.x + room.x - inset - ImGui::CalcTextSize(right).x, y),
+                   ImGui::GetColorU32(ImGuiCol_TextDisabled), right);
+    ImGui::EndDisabled();
+    ImGui::PopID();
+    return pressed;
+}
+void ang_gui_list_show(ang_gui *) { ImGui::ScrollToItem(ImGuiScrollFlags_KeepVisibleEdgeY); }

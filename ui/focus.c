@@ -1,0 +1,104 @@
+#include "ui/focus.h"
+
+#include "ui/viewer_private.h"
+
+#include <math.h>
+
+static const double turn_degrees = 5, pan_pixels = 24; /* of a key; pixels at scale 1 */
+
+static bool dialog_open(const ang_viewer *viewer) {
+    return viewer->opening || viewer->help || viewer->notes || viewer->browsing || viewer->palette.open;
+}
+
+void ang_focus_follow(ang_viewer *viewer) {
+    ang_focus *focus = &viewer->focus;
+    const ang_input *input = &viewer->input;
+    bool moved = input->x < focus->x || input->x > focus->x || input->y < focus->y || input->y > focus->y ||
+                 input->wheel_y < 0 || input->wheel_y > 0;
+    for (int i = 0; i < ANG_BUTTON_COUNT; i++) moved = moved || input->button[i];
+    focus->x = input->x;
+    focus->y = input->y;
+    if (viewer->hovered < ANG_PANES && moved) {
+        focus->pane = (int)viewer->hovered;
+        focus->by_key = false;
+        bool widgets = ang_gui_navigating(viewer->gui) && !ang_gui_popup_open(viewer->gui);
+        if (widgets && !dialog_open(viewer) && !viewer->typing) ang_gui_leave_widgets(viewer->gui);
+    }
+    if (viewer->maximised >= 0) focus->pane = viewer->maximised;
+}
+
+void ang_focus_cycle(ang_viewer *viewer, int by) {
+    ang_focus *focus = &viewer->focus;
+    bool panel = !viewer->grips.layout.panel_hidden, widgets = ang_gui_navigating(viewer->gui);
+    int places = panel ? ANG_PANES + 1 : ANG_PANES;
+    int at = ((widgets ? ANG_PANES : focus->pane) + by + places) % places;
+    if (at == ANG_PANES) {
+        ang_gui_enter_widgets(viewer->gui);
+        return;
+    }
+    ang_gui_leave_widgets(viewer->gui);
+    focus->pane = at;
+    focus->by_key = true;
+    if (viewer->maximised >= 0) viewer->maximised = at;
+}
+
+/* In the plane of the slice, by as much as another slice of those that change is away. */
+static void move_crosshair(ang_viewer *viewer, ang_orientation orientation, int right, int down) {
+    ang_rect rect = viewer->pane[orientation];
+    ang_slice_frame frame = ang_slice_frame_make(viewer->study.volume, orientation, &viewer->slice[orientation].view,
+                                                 viewer->crosshair, (int)rect.width, (int)rect.height);
+    ang_vec3 way = ang_vec3_add(ang_vec3_scale(frame.axes.right, right), ang_vec3_scale(frame.axes.down, down));
+    double step = 0, most = 0;
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
+        double along = fabs(ang_vec3_dot(viewer->range[i].normal, way));
+        if (along > most) most = along, step = viewer->range[i].step;
+    }
+    ang_viewer_point_at(viewer, ang_vec3_add(viewer->crosshair, ang_vec3_scale(way, step)));
+}
+
+static void pan(ang_viewer *viewer, int right, int down) {
+    int pane = viewer->focus.pane;
+    double pixels = ang_gui_px(viewer->gui, pan_pixels);
+    if (pane == ANG_PANE_VOLUME) {
+        ang_volume_pan(viewer, right * pixels, down * pixels);
+        return;
+    }
+    ang_slice_view *view = &viewer->slice[pane].view;
+    ang_rect rect = viewer->pane[pane];
+    double mm = ang_slice_frame_make(viewer->study.volume, (ang_orientation)pane, view, viewer->crosshair,
+                                     (int)rect.width, (int)rect.height)
+                    .mm_per_pixel;
+    view->pan_mm[0] -= right * pixels * mm;
+    view->pan_mm[1] -= down * pixels * mm;
+}
+
+bool ang_focus_arrow(ang_viewer *viewer, int key, unsigned modifiers) {
+    if (key < ANG_KEY_LEFT || key > ANG_KEY_DOWN) return false;
+    int right = key == ANG_KEY_RIGHT ? 1 : key == ANG_KEY_LEFT ? -1 : 0;
+    int down = key == ANG_KEY_DOWN ? 1 : key == ANG_KEY_UP ? -1 : 0;
+    bool volume = viewer->focus.pane == ANG_PANE_VOLUME;
+    if (modifiers == ANG_MOD_SHIFT && volume)
+        ang_view_turn(&viewer->document.view, right * turn_degrees, down * turn_degrees);
+    else if (modifiers == ANG_MOD_SHIFT)
+        move_crosshair(viewer, (ang_orientation)viewer->focus.pane, right, down);
+    else if (modifiers == ANG_MOD_CONTROL)
+        pan(viewer, right, down);
+    else if (modifiers == (ANG_MOD_CONTROL | ANG_MOD_SHIFT))
+        ang_grips_step(viewer, right, down);
+    else
+        return false;
+    return true;
+}
+
+void ang_focus_zoom(ang_viewer *viewer, double factor) {
+    int pane = viewer->focus.pane;
+    if (pane == ANG_PANE_VOLUME) {
+        ang_volume_zoom(viewer, factor);
+        return;
+    }
+    ang_rect rect = viewer->pane[pane];
+    ang_slice_view *view = &viewer->slice[pane].view;
+    ang_slice_frame frame = ang_slice_frame_make(viewer->study.volume, (ang_orientation)pane, view, viewer->crosshair,
+                                                 (int)rect.width, (int)rect.height);
+    ang_slice_zoom(view, &frame, rect.width / 2, rect.height / 2, factor);
+}
