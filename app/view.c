@@ -4,6 +4,7 @@
 #ifdef ANG_WITH_WINDOW
 
 #include "app/picture_state.h"
+#include "app/view_preferences.h"
 #include "app/view_state.h"
 #include "app/view_waiting.h"
 #include "io/font.h"
@@ -28,6 +29,7 @@ typedef struct view {
     char *state; /* as last written; NULL: not yet */
     bool state_failed;
     ang_waiting waiting;
+    ang_viewer_settings settings;
 } view;
 
 static void copy_notes(const ang_load_report *report, ang_study *study) {
@@ -189,6 +191,20 @@ static bool read_presets(view *view, const char **chosen, ang_error *err) {
     return true;
 }
 
+static void remember(void *context, const ang_viewer_settings *settings) {
+    (void)context;
+    ang_view_preferences_write(settings);
+}
+
+static bool full_path(void *context, const char *path, char *full, size_t size) {
+    (void)context;
+    char *found = realpath(path, NULL);
+    bool fits = found && strlen(found) < size;
+    if (fits) strcpy(full, found);
+    free(found);
+    return fits;
+}
+
 static bool run(view *view, ang_error *err) {
     const ang_options *options = view->options;
     ang_viewer_options how = {.path = options->argument_count > 0 ? options->arguments[0] : NULL};
@@ -199,6 +215,7 @@ static bool run(view *view, ang_error *err) {
     if (!read_presets(view, &how.preset, err)) return false;
     if (options->state && !ang_waiting_read(&view->waiting, options->state, err)) return false;
     if (options->state && !how.path) how.path = options->state;
+    ang_view_preferences_read(&view->settings);
     ang_viewer_host host = {.context = view,
                             .load = load,
                             .release = release,
@@ -210,6 +227,9 @@ static bool run(view *view, ang_error *err) {
                             .open_state = open_state,
                             .session = session,
                             .shown = options->write_state ? shown : NULL,
+                            .remember = remember,
+                            .full_path = full_path,
+                            .settings = &view->settings,
                             .presets = (const ang_preset *const *)view->presets,
                             .font = ang_font_find(),
                             .version = ANG_VERSION,

@@ -260,6 +260,25 @@ static void add_live(cJSON *live, const ang_viewer_state *shown) {
     ang_json_add_number(live, "hovered_hu", shown->hovered_hu);
 }
 
+/* The window's own: nothing of the study. */
+static void add_shell(cJSON *live, const ang_viewer_state *shown) {
+    static const char *const grips[ANG_GRIPS] = {"cross", "across", "down", "panel"};
+    const ang_layout *layout = shown->layout;
+    cJSON *shell = cJSON_AddObjectToObject(live, "shell");
+    cJSON_AddStringToObject(shell, "theme", shown->theme);
+    cJSON_AddStringToObject(shell, "focus", shown->widgets ? "widgets" : pane_names[shown->focus]);
+    cJSON_AddBoolToObject(shell, "help", shown->help);
+    cJSON_AddBoolToObject(shell, "palette", shown->palette);
+    add_numbers(shell, "split", (double[]){layout->across, layout->down}, 2);
+    ang_json_add_number(shell, "panel", layout->panel_hidden ? 0 : layout->panel);
+    cJSON_AddNumberToObject(shell, "recent", shown->recent->count);
+    cJSON *list = cJSON_AddObjectToObject(shell, "grips");
+    for (int i = 0; i < ANG_GRIPS; i++) {
+        const ang_rect *rect = &shown->grip[i];
+        add_numbers(list, grips[i], (double[]){rect->x, rect->y, rect->width, rect->height}, 4);
+    }
+}
+
 char *ang_view_state_print(const ang_viewer_state *shown, const ang_load_options *data_options) {
     ang_state state;
     bool there = shown->study && ang_view_state_of(shown, data_options, &state, NULL);
@@ -268,6 +287,7 @@ char *ang_view_state_print(const ang_viewer_state *shown, const ang_load_options
     cJSON *live = cJSON_AddObjectToObject(root, "live");
     cJSON_AddStringToObject(live, "phase", shown->phase);
     if (there) add_live(live, shown);
+    add_shell(live, shown);
     /* Without its folder, whose name may identify a patient. */
     const char *slash = shown->saved ? strrchr(shown->saved, '/') : NULL;
     if (shown->saved) cJSON_AddStringToObject(live, "saved", slash ? slash + 1 : shown->saved);

@@ -350,19 +350,24 @@ static const struct {
                {'=', S, '+', 0},
                {'+', S, '+', 0}};
 
-static void press(ang_viewer *viewer, int key, unsigned modifiers) {
-    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
-        if (aliases[i].key == key && aliases[i].modifiers == modifiers) {
-            key = aliases[i].same;
-            modifiers = aliases[i].same_modifiers;
-            break;
-        }
+/* Of those that share a key the first that can be done now; false where there is none. */
+static bool run_action(ang_viewer *viewer, int key, unsigned modifiers) {
     for (int i = 0; i < action_count; i++) {
         const ang_action *action = &actions[i];
-        if (action->key != key || action->modifiers != modifiers) continue;
-        if (ang_action_enabled(viewer, action)) action->run(viewer, action->argument);
-        return;
+        if (action->key != key || action->modifiers != modifiers || !ang_action_enabled(viewer, action)) continue;
+        action->run(viewer, action->argument);
+        return true;
     }
+    return false;
+}
+
+static void press(ang_viewer *viewer, int key, unsigned modifiers) {
+    if (run_action(viewer, key, modifiers)) return;
+    for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
+        if (aliases[i].key == key && aliases[i].modifiers == modifiers) {
+            run_action(viewer, aliases[i].same, aliases[i].same_modifiers);
+            return;
+        }
     if (!viewer->ready || ang_focus_arrow(viewer, key, modifiers)) return;
     if (key >= '1' && key < '1' + window_count && modifiers == 0) choose_number(viewer, key - '1');
 }

@@ -123,7 +123,7 @@ typedef struct ang_canvas {
     double start_x, start_y; /* where `held` or `released` went down */
     double wheel;            /* turns, up positive; 0 where not hovered */
     unsigned modifiers;      /* ANG_MOD_* */
-    bool focused;            /* it has the keyboard; only among widgets, and to be shown by its owner */
+    bool focused;            /* it has the keyboard; only among widgets */
     bool activated;          /* by Enter or Space, while it has the keyboard */
 } ang_canvas;
 

@@ -28,6 +28,26 @@ static void list_windows(ang_viewer *viewer) {
     ang_gui_menu_end(viewer->gui);
 }
 
+/* Below "Open..." of the first menu. */
+static void list_recent(ang_viewer *viewer) {
+    ang_gui *gui = viewer->gui;
+    const ang_recent *recent = &viewer->recent;
+    if (!ang_gui_menu_begin(gui, "Open recent")) return;
+    char text[160], path[ANG_RECENT_SIZE] = "";
+    for (int i = 0; i < recent->count; i++) {
+        char label[200];
+        snprintf(label, sizeof label, "%s##%d", ang_recent_short(recent->path[i], text, sizeof text), i);
+        if (ang_gui_menu_item(gui, label, "", false, true)) strcpy(path, recent->path[i]);
+        ang_gui_tooltip(gui, recent->path[i]);
+    }
+    if (recent->count == 0) ang_gui_menu_item(gui, "Nothing yet", "", false, false);
+    ang_gui_menu_separator(gui);
+    bool forgets = ang_gui_menu_item(gui, "Forget these", "", false, recent->count > 0);
+    ang_gui_menu_end(gui);
+    if (path[0]) ang_viewer_open(viewer, path);
+    if (forgets) viewer->recent.count = 0;
+}
+
 double ang_menus(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     int action_count;
@@ -48,6 +68,7 @@ double ang_menus(ang_viewer *viewer) {
             if (ang_gui_menu_item(gui, action->name, ang_action_shortcut(action, text), checked, enabled))
                 action->run(viewer, action->argument);
             if (action->help) ang_gui_tooltip(gui, action->help);
+            if (first == 0 && i == 0) list_recent(viewer);
         }
         if (open) ang_gui_menu_end(gui);
         first = end;

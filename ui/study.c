@@ -120,9 +120,10 @@ void ang_study_take_loaded(ang_viewer *viewer, const char *wanted_preset) {
     ang_study study;
     ang_error err;
     if (!ang_loading_take(&viewer->loading, &done, &study, &err)) return;
-    if (done)
+    if (done) {
         show_study(viewer, &study, wanted_preset);
-    else if (err.code == ANG_INTERRUPTED)
+        ang_settings_opened(viewer, viewer->asked);
+    } else if (err.code == ANG_INTERRUPTED)
         snprintf(viewer->failure, sizeof viewer->failure, "Loading was cancelled.");
     else
         snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);

@@ -92,7 +92,16 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .undo = ang_history_can_undo(&viewer->history),
                                 .redo = ang_history_can_redo(&viewer->history),
                                 .saved = viewer->saved[0] ? viewer->saved : NULL,
-                                .frames = viewer->frames};
+                                .frames = viewer->frames,
+                                .focus = (ang_pane)viewer->focus.pane,
+                                .widgets = ang_gui_navigating(viewer->gui),
+                                .help = viewer->help,
+                                .palette = viewer->palette.open,
+                                .theme = viewer->theme->name,
+                                .layout = &viewer->grips.layout,
+                                .recent = &viewer->recent};
+    ang_layout_places places = ang_layout_place(&viewer->grips.layout, &viewer->grips.frame);
+    memcpy(state->grip, places.grip, sizeof state->grip);
     for (int i = 0; i < ANG_ORIENTATIONS && viewer->ready; i++) {
         state->slice[i].index = ang_slice_index(&viewer->range[i], viewer->crosshair);
         state->slice[i].count = viewer->range[i].count;
@@ -140,6 +149,7 @@ static void rest(ang_viewer *viewer) {
         return;
     }
     tell_host(viewer);
+    if (!ang_gui_holding(viewer->gui)) ang_settings_remember(viewer, false);
     double seconds = INFINITY;
     bool shown = viewer->ready && viewer->pane[ANG_PANE_VOLUME].width >= 1;
     if (shown) seconds = ang_volume_refine_in(viewer);
@@ -185,16 +195,17 @@ bool ang_viewer_run(const ang_viewer_host *host, const ang_viewer_options *optio
     ang_viewer *viewer = ang_alloc(1, sizeof *viewer, "the viewer", err);
     if (!viewer) return false;
     viewer->host = host;
-    viewer->theme = &ang_theme_dark;
-    viewer->grips = (ang_grips){.layout = ang_layout_default, .held = -1};
+    ang_settings_take(viewer);
     viewer->maximised = viewer->point = -1;
     viewer->gesture.pane = -1;
     viewer->hovered = ANG_PANES;
-    viewer->corner_text = viewer->crosshair_shown = true;
-    viewer->window = ang_window_create("Angioscope", options->width, options->height, err);
+    int width = options->width > 0 ? options->width : viewer->remembered.width;
+    int height = options->height > 0 ? options->height : viewer->remembered.height;
+    viewer->window = ang_window_create("Angioscope", width, height, err);
     if (viewer->window) viewer->painter = ang_painter_create(ang_window_gl(viewer->window), err);
     if (viewer->painter) viewer->gui = ang_gui_create(viewer->window, viewer->painter, host->font, err);
     bool done = viewer->gui && work(viewer, options, err);
+    if (viewer->gui) ang_settings_remember(viewer, true);
     ang_loading_end(&viewer->loading);
     ang_study_close(viewer);
     ang_gui_destroy(viewer->gui);

@@ -11,6 +11,7 @@
 #include "core/transfer/preset.h"
 #include "core/volume/volume.h"
 #include "ui/gui.h"
+#include "ui/settings.h"
 #include "ui/state/document.h"
 #include "ui/state/session.h"
 #include "ui/state/slice_geometry.h"
@@ -52,11 +53,18 @@ typedef struct ang_viewer_state {
     const char *method;                /* that draws; NULL: none yet */
     int size[2];                       /* of the 3D picture, pixels */
     bool refined;
-    double latency_ms; /* from the last event to the window that showed what came of it */
-    double frame_ms;   /* the last 3D picture's */
-    int undo, redo;    /* 1 where possible */
-    const char *saved; /* the last file written; NULL: none */
-    int frames;        /* windows drawn so far */
+    double latency_ms;  /* from the last event to the window that showed what came of it */
+    double frame_ms;    /* the last 3D picture's */
+    int undo, redo;     /* 1 where possible */
+    const char *saved;  /* the last file written; NULL: none */
+    int frames;         /* windows drawn so far */
+    ang_pane focus;     /* the pane that keys apply to */
+    bool widgets;       /* widgets have the keyboard instead */
+    bool help, palette; /* open */
+    const char *theme;
+    const ang_layout *layout;
+    ang_rect grip[ANG_GRIPS];
+    const ang_recent *recent;
 } ang_viewer_state;
 
 /* What the viewer asks of the program. */
@@ -85,8 +93,13 @@ typedef struct ang_viewer_host {
     bool (*save_preset)(void *context, const ang_document *document, char *path, size_t size, ang_error *err);
     /* Told after each frame after which something differs; NULL: not wanted. */
     void (*shown)(void *context, const ang_viewer_state *state);
-    const ang_preset *const *presets; /* NULL at the end; outlive the viewer */
-    const char *font;                 /* TrueType file; NULL: none found */
+    /* Keeps settings for the next run; NULL: not wanted. */
+    void (*remember)(void *context, const ang_viewer_settings *settings);
+    /* The absolute path of a file or folder into `full`; false where it is too long. NULL: none are remembered. */
+    bool (*full_path)(void *context, const char *path, char *full, size_t size);
+    const ang_viewer_settings *settings; /* to begin with; NULL: defaults; outlives the viewer */
+    const ang_preset *const *presets;    /* NULL at the end; outlive the viewer */
+    const char *font;                    /* TrueType file; NULL: none found */
     const char *version;
     int threads; /* 0: all */
 } ang_viewer_host;

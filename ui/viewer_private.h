@@ -91,6 +91,8 @@ typedef struct ang_viewer {
     ang_grips grips;
     ang_focus focus;
     ang_palette palette;
+    ang_recent recent;
+    ang_viewer_settings remembered; /* what the host has been told */
     ang_pane hovered;
     double hovered_hu; /* NaN: none */
     ang_vec3 hovered_mm;

@@ -188,9 +188,10 @@ static inline void drag(int button, int dx, int dy) {
           dx - dx / 2, dy - dy / 2, button);
 }
 
-/* An empty FOLDER and a display; `skipped` where there can be none. For a group's setup: 0 or -1. */
+/* An empty FOLDER, no preferences, and a display; `skipped` where there can be none. For a group's setup: 0 or -1. */
 static inline int open_display(void) {
     if (system("rm -rf " FOLDER " && mkdir -p " FOLDER) != 0) return -1;
+    setenv("XDG_CONFIG_HOME", FOLDER "/config", 1); /* not what the user has chosen */
     if (!installed("Xvfb") || !installed("xdotool"))
         skipped = "Xvfb or xdotool is not installed (packages xvfb, xdotool)";
 #ifndef ANG_WITH_WINDOW

@@ -71,6 +71,7 @@ void ang_gui_canvas(ang_gui *gui, const char *name, double width, double height,
     ang_gui_note_stop(gui);
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     canvas->focused = gui->navigating && g.NavId == ImGui::GetItemID() && !g.NavDisableHighlight;
+    ImGui::RenderNavHighlight(ImRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()), ImGui::GetItemID());
     canvas->activated = pressed && canvas->focused && gui->held < 0 && canvas->released < 0;
     /* Otherwise the wheel would scroll the panel as well. */
     if (canvas->hovered) ImGui::SetItemUsingMouseWheel();

@@ -185,8 +185,13 @@ bool ang_gui_colour(ang_gui *gui, const char *name, double colour[3]) {
 void ang_gui_progress(ang_gui *gui, double fraction, double width) {
     ImGui::ProgressBar((float)fraction, ImVec2((float)width, (float)ang_gui_px(gui, 8)), "");
 }
-void ang_gui_tooltip(ang_gui *, const char *text) {
+void ang_gui_tooltip(ang_gui *gui, const char *text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    /* Beside a menu, not over what comes next in it. */
+    const ImGuiWindow *menu = ImGui::GetCurrentContext()->CurrentWindow;
+    if (menu->Flags & ImGuiWindowFlags_Popup)
+        ImGui::SetNextWindowPos(
+            ImVec2(menu->Pos.x + menu->Size.x + (float)ang_gui_px(gui, 4), ImGui::GetItemRectMin().y));
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
     ImGui::TextUnformatted(text);

@@ -275,6 +275,13 @@ void ang_window_show(ang_window *window) { glfwSwapBuffers(window->handle); }
 bool ang_window_closing(const ang_window *window) { return glfwWindowShouldClose(window->handle); }
 void ang_window_close(ang_window *window) { glfwSetWindowShouldClose(window->handle, GLFW_TRUE); }
 
+void ang_window_size(const ang_window *window, int *width, int *height) {
+    glfwGetWindowSize(window->handle, width, height);
+    if (!glfwGetWindowMonitor(window->handle)) return;
+    *width = window->placed[2];
+    *height = window->placed[3];
+}
+
 void ang_window_toggle_full_screen(ang_window *window) {
     int *placed = window->placed;
     if (glfwGetWindowMonitor(window->handle)) {

@@ -32,6 +32,8 @@ void ang_window_show(ang_window *window);
 /* Whether the window is to be closed, by its frame or by ang_window_close. */
 bool ang_window_closing(const ang_window *window);
 void ang_window_close(ang_window *window);
+/* Its size in pixels, as it is when it does not fill the screen. */
+void ang_window_size(const ang_window *window, int *width, int *height);
 void ang_window_toggle_full_screen(ang_window *window);
 /* What has been dropped on the window since the last call: the caller frees; NULL: nothing. */
 char *ang_window_dropped(ang_window *window);
