@@ -55,7 +55,7 @@ void ang_gui_leave_widgets(ang_gui *gui);
  * any case. */
 void ang_gui_area_begin(ang_gui *gui, const char *name, ang_rect rect, bool solid);
 void ang_gui_area_end(ang_gui *gui);
-/* The same in front of all else, as large as its contents, centred in the window. */
+/* The same in front of all else, as large as its contents, centred in the window; scrolls where that is too small. */
 void ang_gui_message_begin(ang_gui *gui, const char *name);
 void ang_gui_message_end(ang_gui *gui);
 
@@ -70,6 +70,7 @@ bool ang_gui_menu_item(ang_gui *gui, const char *label, const char *shortcut, bo
 /* Widgets. Labels end at "##"; what follows only tells widgets of one label apart. `width` 0: what is left. */
 void ang_gui_text(ang_gui *gui, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ang_gui_text_dim(ang_gui *gui, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ang_gui_text_accent(ang_gui *gui, const char *text);
 /* With line breaks at the area's or the given width. */
 void ang_gui_paragraph(ang_gui *gui, const char *text, double width);
 /* As high as a row of controls. */

@@ -89,9 +89,18 @@ static const struct {
     {"Shift + drag in 3D", "up, down: shift the preset; across: stretch"},
     {"Ctrl + Shift + drag in 3D", "up, down: overall opacity"},
     {"Double click", "the pane large, and back"},
+    {"Drag of a gap between panes", "their sizes; double click: equal"},
     {"Shift in a drag of numbers", "ten times finer"},
     {"Esc", "cancel a drag, loading, a window"},
-    {"1 ... 9", "windows; over the 3D pane: presets"},
+    {"", ""},
+    {"1 ... 9", "windows; in the 3D pane: presets"},
+    {"Shift + arrows", "slice: the crosshair; 3D: turn"},
+    {"Ctrl + arrows", "pan"},
+    {"Ctrl + Shift + arrows", "the gaps between the panes"},
+    {"Tab, Shift + Tab", "to the panel's controls; Esc: to the panes"},
+    {"Arrows, Enter, Space", "there: move, type, press or change"},
+    {"Ctrl + Tab", "as F6: the next pane"},
+    {"Ctrl + Shift + P", "as Ctrl + K: find a command"},
 };
 
 static void help_cells(ang_gui *gui, const char *left, const char *right) {
@@ -101,21 +110,59 @@ static void help_cells(ang_gui *gui, const char *left, const char *right) {
     ang_gui_text_dim(gui, "%s", right);
 }
 
+/* A line of the help: a menu's name, an action, or, of neither, nothing. */
+typedef struct help_line {
+    const char *menu;
+    const ang_action *action;
+} help_line;
+enum { HELP_LINES = 256 };
+
+/* Actions under the names of their menus, with a line between menus. */
+static int list_help(help_line lines[HELP_LINES]) {
+    int action_count, count = 0;
+    const ang_action *actions = ang_actions(&action_count);
+    const char *menu = "";
+    for (int i = 0; i < action_count && count + 3 < HELP_LINES; i++) {
+        if (strcmp(menu, actions[i].menu) != 0) {
+            if (i > 0) lines[count++] = (help_line){0};
+            menu = actions[i].menu;
+            lines[count++] = (help_line){.menu = menu};
+        }
+        lines[count++] = (help_line){.action = &actions[i]};
+    }
+    return count;
+}
+
+static void show_help_line(ang_gui *gui, const help_line *line) {
+    char text[32];
+    if (line->menu) {
+        ang_gui_table_next(gui);
+        ang_gui_text_accent(gui, line->menu);
+        ang_gui_table_next(gui);
+    } else {
+        help_cells(gui, line->action ? ang_action_shortcut(line->action, text) : "",
+                   line->action ? line->action->name : "");
+    }
+}
+
 void ang_help(ang_viewer *viewer) {
     if (!viewer->help) return;
     ang_gui *gui = viewer->gui;
-    int action_count;
-    const ang_action *actions = ang_actions(&action_count);
-    char text[32];
+    help_line lines[HELP_LINES];
+    int count = list_help(lines), rows = (count + 1) / 2;
+    /* The second column begins with a menu's name where one is near. */
+    for (int by = 0; by < 6; by++)
+        if (rows + by < count && lines[rows + by].menu) {
+            rows += by;
+            break;
+        }
     ang_gui_message_begin(gui, "help");
     bool open = ang_gui_table_begin(gui, "keys", 6);
     enum { hand_count = sizeof hands / sizeof *hands };
-    int rows = (action_count + 1) / 2;
     for (int i = 0; i < rows && open; i++) {
-        for (int k = i; k < i + 2 * rows; k += rows) {
-            bool there = k < action_count;
-            help_cells(gui, there ? ang_action_shortcut(&actions[k], text) : "", there ? actions[k].name : "");
-        }
+        static const help_line none = {0};
+        show_help_line(gui, i < count ? &lines[i] : &none);
+        show_help_line(gui, rows + i < count ? &lines[rows + i] : &none);
         help_cells(gui, i < hand_count ? hands[i].hand : "", i < hand_count ? hands[i].does : "");
     }
     if (open) ang_gui_table_end(gui);

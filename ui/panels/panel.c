@@ -39,14 +39,17 @@ static void rendering(ang_viewer *viewer) {
     int mode = (int)document->mode;
     ang_gui_label(gui, "Mode");
     if (ang_gui_choice(gui, "##mode", modes, 5, &mode, 0)) document->mode = (ang_mode)mode;
+    ang_gui_tooltip(gui, "How the values along a ray become a pixel of the 3D pane");
     if (document->mode == ANG_MODE_DVR) {
         bool shaded = document->shading == ANG_SHADING_PHONG;
         ang_gui_label(gui, "Shading");
         if (ang_gui_checkbox(gui, "Phong##shading", &shaded))
             document->shading = shaded ? ANG_SHADING_PHONG : ANG_SHADING_NONE;
+        ang_gui_tooltip(gui, "Light and shade by the direction in which values change");
     } else if (document->mode == ANG_MODE_ISO) {
         ang_gui_label(gui, "Surface at");
         ang_gui_number(gui, "##iso", &document->iso_hu, 2, -1e5, 1e5, unit, 0);
+        ang_gui_tooltip(gui, "Value of the surface: drag, or double-click and type");
     } else {
         ang_gui_label(gui, "Window");
         ang_gui_text_dim(gui, "that of the slices");
@@ -90,6 +93,7 @@ static void slices(ang_viewer *viewer) {
     static const char *const slabs[] = {"Mean", "MIP", "MinIP"};
     int slab = (int)document->slab;
     if (ang_gui_choice(gui, "##slab-mode", slabs, 3, &slab, half)) document->slab = (ang_slab)slab;
+    ang_gui_tooltip(gui, "What a slab shows: the mean, the greatest or the least value across it");
 }
 
 static void series(ang_viewer *viewer) {

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double margin = 8; /* from a pane's edges, at scale 1 */
 
@@ -55,6 +56,18 @@ void ang_pane_bar(ang_viewer *viewer, ang_rect rect, double mm_per_pixel, bool a
     ang_gui_write(gui, right, y - tick - line, 1, true, true, ANG_INK_TEXT, text);
 }
 
+/* The text as far as it fits into `room` pixels, with an ellipsis where something is left out. */
+static const char *fit(const ang_gui *gui, const char *text, double room, char *fitted, size_t size) {
+    if (ang_gui_text_width(gui, text, true) <= room) return text;
+    size_t length = strlen(text);
+    do {
+        while (length > 0 && ((unsigned char)text[--length] & 0xc0) == 0x80) {
+        }
+        snprintf(fitted, size, "%.*s\u2026", (int)length, text);
+    } while (length > 0 && ang_gui_text_width(gui, fitted, true) > room);
+    return fitted;
+}
+
 void ang_pane_corner(ang_viewer *viewer, ang_rect rect, int right, int bottom, int line, const char *text) {
     ang_gui *gui = viewer->gui;
     if (small(viewer, rect)) return;
@@ -63,14 +76,12 @@ void ang_pane_corner(ang_viewer *viewer, ang_rect rect, int right, int bottom, i
     double y =
         bottom ? rect.y + rect.height - edge - (line + 1) * tall + ang_gui_px(gui, 3) : rect.y + edge + line * tall;
     /* The pane's letter stands before its name. */
-    if (!right && !bottom && line == 0) x += ang_gui_px(gui, 20);
-    /* The middle of the edge is the letter's: what is too long is cut off at its end. */
-    double half = rect.width / 2 - ang_gui_px(gui, 26);
-    ang_rect room = {right ? rect.x + rect.width - half : rect.x, rect.y, half, rect.height};
-    bool fits = ang_gui_text_width(gui, text, true) <= half - edge;
-    ang_gui_clip(gui, room);
-    ang_gui_write(gui, right && !fits ? room.x : x, y, right && fits, true, true, ANG_INK_TEXT, text);
-    ang_gui_unclip(gui);
+    if (!right && !bottom && line == 0) x += ang_gui_px(gui, 26);
+    /* The middle of the edge is the letter's. */
+    double room = rect.width / 2 - ang_gui_px(gui, 26);
+    room -= right ? edge : x - rect.x;
+    char fitted[256];
+    ang_gui_write(gui, x, y, right, true, true, ANG_INK_TEXT, fit(gui, text, room, fitted, sizeof fitted));
 }
 
 void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane) {

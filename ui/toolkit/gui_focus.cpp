@@ -79,6 +79,17 @@ static void hold_back(ang_gui *gui) {
     }
 }
 
+/* Enter presses what Space presses too; Dear ImGui would only let it begin to type. One that ended typing does not. */
+static void press_by_enter(ang_gui *gui) {
+    const ang_input &input = gui->input;
+    ImGuiIO &io = ImGui::GetIO();
+    for (int i = 0; i < input.press_count; i++)
+        if (input.press[i].key == ANG_KEY_ENTER && !input.press[i].repeat)
+            gui->pressing = gui->navigating && !io.WantTextInput;
+    gui->pressing = gui->pressing && input.key[ANG_KEY_ENTER];
+    if (gui->pressing) io.KeysDown[ANG_KEY_SPACE] = true;
+}
+
 void ang_gui_take_keys(ang_gui *gui) {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     const ang_input &input = gui->input;
@@ -87,6 +98,7 @@ void ang_gui_take_keys(ang_gui *gui) {
     if (input.press_count > 0 || pointing) gui->by_keys = input.press_count > 0;
     if (input.button[0] || input.button[1]) gui->bar = false;
     hold_back(gui); /* before Tab, which may ask for Enter */
+    press_by_enter(gui);
     take_tabs(gui);
     bool shown = takes_keys(g.NavWindow) && !g.NavDisableHighlight;
     gui->navigating = ang_gui_popup_open(gui) || gui->bar || shown;

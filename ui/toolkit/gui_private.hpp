@@ -44,6 +44,7 @@ struct ang_gui {
     bool navigating;                 /* widgets have the keyboard */
     bool bar, menus_wanted;          /* the bar of menus has it; it is to have it */
     int bar_frames;                  /* without a menu, before the bar is left */
+    bool pressing;                   /* Enter went down on a widget and is still held */
     bool by_keys;                    /* the last that was done was done by a key */
     int waiting_step;                /* of Tab, for the next frame; 0: none */
     std::vector<ang_paint_vertex> vertices;

@@ -25,8 +25,11 @@ void ang_gui_message_begin(ang_gui *gui, const char *name) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, (float)ang_gui_px(gui, 4));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::ColorConvertU32ToFloat4(gui->theme->raised));
-    ImGui::Begin(name, nullptr,
-                 (ang_gui_fixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize);
+    const float margin = (float)ang_gui_px(gui, 24);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0),
+                                        ImVec2((float)gui->input.width - margin, (float)gui->input.height - margin));
+    const ImGuiWindowFlags not_wanted = ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollbar;
+    ImGui::Begin(name, nullptr, (ang_gui_fixed & ~not_wanted) | ImGuiWindowFlags_AlwaysAutoResize);
     /* Only for the message itself, not for tooltips in it. */
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(3);
@@ -49,9 +52,16 @@ void ang_gui_menu_bar_end(ang_gui *) {
 bool ang_gui_menu_begin(ang_gui *gui, const char *label) {
     bool open = ImGui::BeginMenu(label);
     if (!open) ang_gui_menu_focus(gui);
+    /* Rows as high as controls. */
+    if (open)
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                            ImVec2(ImGui::GetStyle().ItemSpacing.x, (float)ang_gui_px(gui, 9)));
     return open;
 }
-void ang_gui_menu_end(ang_gui *) { ImGui::EndMenu(); }
+void ang_gui_menu_end(ang_gui *) {
+    ImGui::PopStyleVar();
+    ImGui::EndMenu();
+}
 void ang_gui_menu_separator(ang_gui *) { ImGui::Separator(); }
 bool ang_gui_menu_item(ang_gui *, const char *label, const char *shortcut, bool checked, bool enabled) {
     return ImGui::MenuItem(label, shortcut, checked, enabled);
@@ -68,6 +78,9 @@ void ang_gui_text_dim(ang_gui *, const char *format, ...) {
     va_start(args, format);
     ImGui::TextDisabledV(format, args);
     va_end(args);
+}
+void ang_gui_text_accent(ang_gui *gui, const char *text) {
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(gui->theme->accent), "%s", text);
 }
 void ang_gui_paragraph(ang_gui *, const char *text, double width) {
     ImGui::PushTextWrapPos(width > 0 ? ImGui::GetCursorPosX() + (float)width : 0.0f);
