@@ -80,6 +80,32 @@ static void taps_of_a_key_are_not_swallowed(void **state) {
     assert_false(input.key['A']);
 }
 
+/* An arrow, then Enter: the second is for where the first has led to. */
+static void keys_go_down_one_by_one(void **state) {
+    (void)state;
+    start();
+    key(ANG_KEY_DOWN, true);
+    key(ANG_KEY_DOWN, false);
+    key(ANG_KEY_ENTER, true);
+    key(ANG_KEY_ENTER, false);
+    int seen[2] = {0}, count = 0, frames = 0;
+    bool more = true;
+    for (; more && frames < 10; frames++) {
+        more = ang_event_take(&queue, &input);
+        assert_true(input.press_count <= 1);
+        if (input.press_count == 1 && count < 2) seen[count++] = input.press[0].key;
+    }
+    assert_int_equal(count, 2);
+    assert_int_equal(seen[0], ANG_KEY_DOWN);
+    assert_int_equal(seen[1], ANG_KEY_ENTER);
+    /* A modifier goes along with its key. */
+    start();
+    key(ANG_KEY_NONE, true);
+    key('Z', true);
+    assert_false(ang_event_take(&queue, &input));
+    assert_int_equal(input.press_count, 2);
+}
+
 static void wheel_turns_add_up_and_end_moves(void **state) {
     (void)state;
     start();
@@ -139,6 +165,7 @@ int main(void) {
         cmocka_unit_test(twenty_clicks_within_one_frame_all_arrive),
         cmocka_unit_test(a_fast_drag_keeps_its_ends),
         cmocka_unit_test(taps_of_a_key_are_not_swallowed),
+        cmocka_unit_test(keys_go_down_one_by_one),
         cmocka_unit_test(wheel_turns_add_up_and_end_moves),
         cmocka_unit_test(double_clicks_go_by_the_hand_not_by_frames),
         cmocka_unit_test(releases_survive_a_full_queue),

@@ -147,6 +147,7 @@ void ang_gui_menu_focus(ang_gui *gui) {
     ImGuiWindow *window = g.CurrentWindow;
     gui->menus_wanted = false;
     gui->bar = true;
+    gui->bar_frames = 0;
     ImGui::FocusWindow(window);
     ImGui::SetNavID(g.LastItemData.ID, ImGuiNavLayer_Menu, 0,
                     ImGui::WindowRectAbsToRel(window, g.LastItemData.NavRect));

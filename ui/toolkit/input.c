@@ -34,7 +34,7 @@ void ang_event_push(ang_event_queue *queue, const ang_event *event) {
 
 /* What the events taken so far forbid those after them. */
 typedef struct taken {
-    bool moved, button, wheel;
+    bool moved, button, wheel, pressed;
     bool edge[ANG_KEY_COUNT];
 } taken;
 
@@ -47,7 +47,8 @@ static bool fits(const ang_event *event, const taken *so_far, const ang_input *i
     case ANG_EVENT_WHEEL:
         return !so_far->button;
     case ANG_EVENT_KEY:
-        return !so_far->edge[event->code] && input->press_count < ANG_INPUT_PRESSES;
+        return !so_far->edge[event->code] && !(event->down && event->code != ANG_KEY_NONE && so_far->pressed) &&
+               input->press_count < ANG_INPUT_PRESSES;
     case ANG_EVENT_CHARACTER:
         return input->character_count < ANG_INPUT_CHARACTERS;
     case ANG_EVENT_FOCUS_LOST:
@@ -89,6 +90,7 @@ static void apply(ang_event_queue *queue, const ang_event *event, taken *so_far,
         input->modifiers = event->modifiers;
         so_far->edge[event->code] = true;
         if (!event->down) break;
+        so_far->pressed = so_far->pressed || event->code != ANG_KEY_NONE;
         input->press[input->press_count].key = event->code;
         input->press[input->press_count].modifiers = event->modifiers;
         input->press[input->press_count++].repeat = event->repeat;
