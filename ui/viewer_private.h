@@ -7,8 +7,8 @@
 #include "ui/grips.h"
 #include "ui/gui.h"
 #include "ui/loading.h"
-#include "ui/panes/cutting.h"
 #include "ui/palette.h"
+#include "ui/panes/cutting.h"
 #include "ui/viewer.h"
 
 /* Colours of the panes (3D Slicer's). */

@@ -37,19 +37,19 @@ static bool near(const ang_pane_map *map, ang_vec3 mm, double x, double y, doubl
     return ang_pane_map_point(map, mm, &at_x, &at_y) && hypot(at_x - x, at_y - y) <= radius;
 }
 
-static ang_grip grip_in_volume(const ang_viewer *viewer, const ang_pane_map *map, double x, double y) {
+static ang_cutting_grip grip_in_volume(const ang_viewer *viewer, const ang_pane_map *map, double x, double y) {
     bool clips = ang_clip_plane_given(&viewer->document.clip);
     double radius = ang_gui_px(viewer->gui, reach);
     ang_crop_box box = ang_crop_box_of(&viewer->document);
-    if (clips && near(map, ang_cutting_tip(viewer, map), x, y, radius)) return (ang_grip){ANG_GRIP_TIP, 0};
+    if (clips && near(map, ang_cutting_tip(viewer, map), x, y, radius)) return (ang_cutting_grip){ANG_CUTTING_TIP, 0};
     unsigned faces = ang_crop_pick(&box, viewer->study.volume, map, x, y, radius);
-    if (faces) return (ang_grip){ANG_GRIP_FACES, faces};
+    if (faces) return (ang_cutting_grip){ANG_CUTTING_FACES, faces};
     bool taken = clips && (near(map, ang_cutting_foot(viewer), x, y, radius) ||
                            on_ring(viewer, map, x, y, ang_gui_px(viewer->gui, side_reach)));
-    return (ang_grip){taken ? ANG_GRIP_PLANE : ANG_GRIP_NONE, 0};
+    return (ang_cutting_grip){taken ? ANG_CUTTING_PLANE : ANG_CUTTING_NONE, 0};
 }
 
-static ang_grip grip_in_slice(const ang_viewer *viewer, const ang_cutting_pane *pane, double x, double y) {
+static ang_cutting_grip grip_in_slice(const ang_viewer *viewer, const ang_cutting_pane *pane, double x, double y) {
     double radius = ang_gui_px(viewer->gui, side_reach), ends[4];
     const ang_slice_frame *frame = pane->frame;
     ang_crop_box box = ang_crop_box_of(&viewer->document);
@@ -57,14 +57,15 @@ static ang_grip grip_in_slice(const ang_viewer *viewer, const ang_cutting_pane *
     ang_vec3 inward = frame->axes.inward;
     int count = ang_crop_outline(&box, viewer->study.volume, inward, ang_vec3_dot(inward, frame->corner), sides);
     unsigned faces = ang_crop_pick_side(sides, count, &pane->map, x, y, radius);
-    if (faces) return (ang_grip){ANG_GRIP_FACES, faces};
+    if (faces) return (ang_cutting_grip){ANG_CUTTING_FACES, faces};
     bool taken = ang_clip_plane_given(&viewer->document.clip) && ang_clip_line(&viewer->document.clip, frame, ends) &&
                  ang_line_distance(ends, x, y) <= radius;
-    return (ang_grip){taken ? ANG_GRIP_PLANE : ANG_GRIP_NONE, 0};
+    return (ang_cutting_grip){taken ? ANG_CUTTING_PLANE : ANG_CUTTING_NONE, 0};
 }
 
-ang_grip ang_cutting_grip_at(const ang_viewer *viewer, const ang_cutting_pane *pane, double x, double y) {
-    if (viewer->tool != ANG_TOOL_CROP || viewer->input.key[ANG_KEY_SPACE]) return (ang_grip){ANG_GRIP_NONE, 0};
+ang_cutting_grip ang_cutting_grip_at(const ang_viewer *viewer, const ang_cutting_pane *pane, double x, double y) {
+    if (viewer->tool != ANG_TOOL_CROP || viewer->input.key[ANG_KEY_SPACE])
+        return (ang_cutting_grip){ANG_CUTTING_NONE, 0};
     return pane->frame ? grip_in_slice(viewer, pane, x, y) : grip_in_volume(viewer, &pane->map, x, y);
 }
 
@@ -121,20 +122,20 @@ bool ang_cutting_hands(ang_viewer *viewer, const ang_cutting_pane *pane, const a
     if (canvas->held < 0 && canvas->released < 0) return false;
     if (canvas->pressed) {
         cutting->grip = canvas->held == ANG_BUTTON_LEFT ? ang_cutting_grip_at(viewer, pane, canvas->x, canvas->y)
-                                                        : (ang_grip){ANG_GRIP_NONE, 0};
+                                                        : (ang_cutting_grip){ANG_CUTTING_NONE, 0};
         cutting->dx = cutting->dy = 0;
-        if (cutting->grip.kind == ANG_GRIP_TIP) cutting->pivot = ang_cutting_foot(viewer);
+        if (cutting->grip.kind == ANG_CUTTING_TIP) cutting->pivot = ang_cutting_foot(viewer);
     }
-    ang_grip grip = cutting->grip;
-    if (canvas->held < 0) cutting->grip.kind = ANG_GRIP_NONE;
-    bool moves = grip.kind != ANG_GRIP_NONE && !viewer->gesture.cancelled && (canvas->dx != 0 || canvas->dy != 0);
-    if (!moves) return grip.kind != ANG_GRIP_NONE;
+    ang_cutting_grip grip = cutting->grip;
+    if (canvas->held < 0) cutting->grip.kind = ANG_CUTTING_NONE;
+    bool moves = grip.kind != ANG_CUTTING_NONE && !viewer->gesture.cancelled && (canvas->dx != 0 || canvas->dy != 0);
+    if (!moves) return grip.kind != ANG_CUTTING_NONE;
     double fine = canvas->modifiers & ANG_MOD_SHIFT ? 0.1 : 1;
     cutting->dx += fine * canvas->dx;
     cutting->dy += fine * canvas->dy;
-    if (grip.kind == ANG_GRIP_FACES)
+    if (grip.kind == ANG_CUTTING_FACES)
         drag_faces(viewer, pane, canvas);
-    else if (grip.kind == ANG_GRIP_PLANE)
+    else if (grip.kind == ANG_CUTTING_PLANE)
         drag_plane(viewer, pane, canvas);
     else
         drag_tip(viewer, pane);

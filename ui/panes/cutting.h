@@ -7,16 +7,16 @@
 #include "ui/state/crop_geometry.h"
 
 /* What of it a hand can take hold of. */
-typedef enum ang_grip_kind { ANG_GRIP_NONE, ANG_GRIP_FACES, ANG_GRIP_PLANE, ANG_GRIP_TIP } ang_grip_kind;
-typedef struct ang_grip {
+typedef enum ang_grip_kind { ANG_CUTTING_NONE, ANG_CUTTING_FACES, ANG_CUTTING_PLANE, ANG_CUTTING_TIP } ang_grip_kind;
+typedef struct ang_cutting_grip {
     ang_grip_kind kind;
     unsigned faces; /* of the crop box, 1 << face */
-} ang_grip;
+} ang_cutting_grip;
 
 typedef struct ang_cutting {
-    ang_vec3 pivot; /* LPS mm: the clip plane's handles stand at its foot on the plane, which turns about it */
-    ang_grip grip;  /* what the drag under way has taken */
-    double dx, dy;  /* pixels that the hand has gone since; with Shift a tenth of them counts */
+    ang_vec3 pivot;        /* LPS mm: the clip plane's handles stand at its foot on the plane, which turns about it */
+    ang_cutting_grip grip; /* what the drag under way has taken */
+    double dx, dy;         /* pixels that the hand has gone since; with Shift a tenth of them counts */
 } ang_cutting;
 
 /* A pane that shows it. */
@@ -38,7 +38,7 @@ ang_vec3 ang_cutting_tip(const struct ang_viewer *viewer, const ang_pane_map *ma
 /* Radius in mm of the ring around the foot. */
 double ang_cutting_ring(const struct ang_viewer *viewer, const ang_pane_map *map);
 /* What is under (x, y) of the pane. */
-ang_grip ang_cutting_grip_at(const struct ang_viewer *viewer, const ang_cutting_pane *pane, double x, double y);
+ang_cutting_grip ang_cutting_grip_at(const struct ang_viewer *viewer, const ang_cutting_pane *pane, double x, double y);
 
 /* Actions; `argument` means nothing. */
 void ang_crop_toggle(struct ang_viewer *viewer, int argument);

@@ -125,26 +125,26 @@ static void draw_plane(ang_viewer *viewer, const ang_cutting_pane *pane, ang_gri
     ang_crop_side sides[ANG_CROP_FACES];
     int count = ang_crop_outline(&box, viewer->study.volume, clip->normal, clip->offset_mm, sides);
     for (int i = 0; i < count; i++) draw_line(viewer, pane, sides[i].ends[0], sides[i].ends[1], ANG_INK_CLIP, plain);
-    draw_ring(viewer, pane, hot == ANG_GRIP_PLANE);
+    draw_ring(viewer, pane, hot == ANG_CUTTING_PLANE);
     ang_vec3 foot = ang_cutting_foot(viewer), tip = ang_cutting_tip(viewer, &pane->map);
     draw_line(viewer, pane, foot, tip, ANG_INK_CLIP, plain);
     double x, y, size = ang_gui_px(gui, 4);
     if (ang_pane_map_point(&pane->map, foot, &x, &y))
         ang_gui_disc(gui, pane->rect.x + x, pane->rect.y + y, size * 0.75, ANG_INK_CLIP);
     if (!ang_pane_map_point(&pane->map, tip, &x, &y)) return;
-    double radius = hot == ANG_GRIP_TIP ? 1.75 * size : 1.25 * size;
+    double radius = hot == ANG_CUTTING_TIP ? 1.75 * size : 1.25 * size;
     ang_gui_disc(gui, pane->rect.x + x, pane->rect.y + y, radius + 1, ANG_INK(0, 0, 0, 190));
-    ang_gui_disc(gui, pane->rect.x + x, pane->rect.y + y, radius, hot == ANG_GRIP_TIP ? ANG_INK_TEXT : ANG_INK_CLIP);
+    ang_gui_disc(gui, pane->rect.x + x, pane->rect.y + y, radius, hot == ANG_CUTTING_TIP ? ANG_INK_TEXT : ANG_INK_CLIP);
 }
 
 /* What is held, in numbers as they stand in the panel. */
 static void write_numbers(ang_viewer *viewer, const ang_cutting_pane *pane, const ang_canvas *canvas) {
     const ang_volume *volume = viewer->study.volume;
-    ang_grip grip = viewer->cutting.grip;
+    ang_cutting_grip grip = viewer->cutting.grip;
     char text[96] = "";
     size_t used = 0;
     ang_crop_box box = ang_crop_box_of(&viewer->document);
-    for (int face = 0; face < ANG_CROP_FACES && grip.kind == ANG_GRIP_FACES; face++) {
+    for (int face = 0; face < ANG_CROP_FACES && grip.kind == ANG_CUTTING_FACES; face++) {
         if (!(grip.faces >> face & 1)) continue;
         ang_vec3 outward = ang_vec3_scale(ang_mat4_column(&volume->affine, face / 2), face % 2 ? 1 : -1);
         double mm = ang_crop_face_at(&box, face) * ang_volume_spacing(volume, face / 2);
@@ -154,9 +154,9 @@ static void write_numbers(ang_viewer *viewer, const ang_cutting_pane *pane, cons
     }
     double azimuth, elevation;
     ang_clip_plane_angles(&viewer->document.clip, &azimuth, &elevation);
-    if (grip.kind == ANG_GRIP_PLANE)
+    if (grip.kind == ANG_CUTTING_PLANE)
         snprintf(text, sizeof text, "%.1f mm", ang_clip_offset(&viewer->document.clip, volume));
-    else if (grip.kind == ANG_GRIP_TIP)
+    else if (grip.kind == ANG_CUTTING_TIP)
         snprintf(text, sizeof text, "azimuth %.1f\xc2\xb0, elevation %.1f\xc2\xb0", azimuth, elevation);
     double x = pane->rect.x + canvas->x, y = pane->rect.y + canvas->y - ang_gui_px(viewer->gui, 30);
     ang_gui_write(viewer->gui, x, y, 0.5, true, true, ANG_INK_TEXT, text);
@@ -164,17 +164,17 @@ static void write_numbers(ang_viewer *viewer, const ang_cutting_pane *pane, cons
 
 void ang_cutting_draw(ang_viewer *viewer, const ang_cutting_pane *pane, const ang_canvas *canvas) {
     bool tool = viewer->tool == ANG_TOOL_CROP, clips = ang_clip_plane_given(&viewer->document.clip);
-    bool holding = canvas->held >= 0 && viewer->cutting.grip.kind != ANG_GRIP_NONE;
-    ang_grip grip = {ANG_GRIP_NONE, 0};
+    bool holding = canvas->held >= 0 && viewer->cutting.grip.kind != ANG_CUTTING_NONE;
+    ang_cutting_grip grip = {ANG_CUTTING_NONE, 0};
     if (holding)
         grip = viewer->cutting.grip;
     else if (canvas->hovered && canvas->held < 0)
         grip = ang_cutting_grip_at(viewer, pane, canvas->x, canvas->y);
-    unsigned faces = grip.kind == ANG_GRIP_FACES ? grip.faces : 0;
-    if (grip.kind != ANG_GRIP_NONE) ang_gui_cursor(viewer->gui, ANG_CURSOR_HAND);
+    unsigned faces = grip.kind == ANG_CUTTING_FACES ? grip.faces : 0;
+    if (grip.kind != ANG_CUTTING_NONE) ang_gui_cursor(viewer->gui, ANG_CURSOR_HAND);
     if (pane->frame) {
         if (tool || viewer->document.crop) draw_outline(viewer, pane, tool, faces);
-        if (clips) draw_cut(viewer, pane, grip.kind == ANG_GRIP_PLANE);
+        if (clips) draw_cut(viewer, pane, grip.kind == ANG_CUTTING_PLANE);
     } else if (tool) {
         draw_box(viewer, pane, faces);
         if (clips) draw_plane(viewer, pane, grip.kind);

@@ -52,7 +52,6 @@ static void turn(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
 }
 
 static void drag(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
-    ang_view *view = &viewer->document.view;
     bool panning =
         canvas->held == ANG_BUTTON_MIDDLE ||
         (canvas->held == ANG_BUTTON_LEFT && (viewer->input.key[ANG_KEY_SPACE] || viewer->tool == ANG_TOOL_PAN));
