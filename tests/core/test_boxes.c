@@ -94,6 +94,11 @@ static void check_rays(const setting *s, uint64_t *seed) {
                 assert_true(b >= last);
                 last = b;
                 assert_true(k >= box->begin && k < box->end);
+                /* Away from the faces and the clip plane a ray has samples on both sides, but for the first and the
+                 * last plane (slice_geometry.c). */
+                double step = s->planes.distance / cosine;
+                if (!box->faces && cosine > 0.9 && k > 0 && k < s->planes.count - 1)
+                    assert_true(t - step >= ray.enter && t + step <= ray.leave);
                 for (int axis = 0; axis < 3; axis++) {
                     assert_true(ang_vec3_at(p, axis) >= ang_vec3_at(box->lower, axis) - 1e-9);
                     assert_true(ang_vec3_at(p, axis) <= ang_vec3_at(box->upper, axis) + 1e-9);
