@@ -30,7 +30,7 @@ static bool cut_anywhere(ang_stage *stage, ang_error *err) {
                 stage->scene.clip_plane = planes[p];
                 stage->options.step_voxels = steps[s];
                 if (!ang_stage_draw(stage, err)) return false;
-                ang_bench_error(stage->bench, ang_stage_homogeneous(stage), 1e-5,
+                ang_bench_error(stage->bench, ang_stage_homogeneous(stage), 2e-6,
                                 "error at plane %zu, view %s, step %g voxels", p, views[v], steps[s]);
             }
     return true;
