@@ -301,7 +301,7 @@ void ang_options_each(ang_verb verb, const ang_options *options,
                       void (*take)(void *context, const char *name, const char *value), void *context) {
     for (int i = 0; i < table_length; i++) {
         if (!(table[i].verbs & verb)) continue;
-        char text[4096];
+        char text[ANG_LONGEST_OPTION];
         value_text(&table[i], options, text, sizeof text);
         take(context, table[i].name, text);
     }

@@ -19,7 +19,7 @@ typedef enum ang_verb {
     ANG_VERB_VIEW = 128,
 } ang_verb;
 
-enum { ANG_MOST_OPTIONS = 128 };
+enum { ANG_MOST_OPTIONS = 128, ANG_LONGEST_OPTION = 16384 /* a value as text: --measure with all its digits */ };
 
 /* The values, with the table's defaults where not given. Strings are borrowed from argv or from the table. */
 typedef struct ang_options {

@@ -110,7 +110,7 @@ static void effective(const filling *filling, const char *name, char *value, siz
 
 static void take(void *context, const char *name, const char *given) {
     filling *filling = context;
-    char value[4096];
+    char value[ANG_LONGEST_OPTION];
     snprintf(value, sizeof value, "%s", given);
     if (!belongs(name)) return;
     effective(filling, name, value, sizeof value);

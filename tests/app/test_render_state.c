@@ -59,6 +59,26 @@ static void a_picture_is_drawn_again(void **state) {
     }
 }
 
+/* As many marks as there may be, with all their digits: more than a command line of this test has room for. */
+static void long_values_are_carried_whole(void **state) {
+    (void)state;
+    need_pictures();
+    uint64_t seed = 7;
+    expect(0, "presets show ct-skin");
+    FILE *file = fopen(FOLDER "/marks.json", "w");
+    assert_non_null(file);
+    fprintf(file, "{\"angioscope_state\": 1, \"preset\": %s, \"render\": {\"size\": \"40x40\", \"measure\": \"",
+            output);
+    for (int i = 0; i < 6 * 64; i++) fprintf(file, "%s%.17g", i ? "," : "", 160 * (random_unit(&seed) - 0.5));
+    fprintf(file, "\"}}");
+    fclose(file);
+    expect(0, "render " DATA " --backend none --state " FOLDER "/marks.json" QUIET "/marks.png");
+    expect(0, "render " DATA " --backend none --state " FOLDER "/marks.png" QUIET "/marks-again.png");
+    assert_true(same_files("marks.png", "marks-again.png"));
+    expect(0, "render " DATA " --backend none --size 40x40 --preset ct-skin" QUIET "/none.png");
+    assert_false(same_files("marks.png", "none.png"));
+}
+
 static void each_frame_carries_its_own(void **state) {
     (void)state;
     need_pictures();
@@ -149,10 +169,10 @@ static void a_picture_names_no_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_picture_is_drawn_again), cmocka_unit_test(each_frame_carries_its_own),
-        cmocka_unit_test(options_go_first),         cmocka_unit_test(what_cannot_be_is_refused),
-        cmocka_unit_test(other_data_are_told),      cmocka_unit_test(a_report_is_of_it),
-        cmocka_unit_test(a_picture_names_no_files),
+        cmocka_unit_test(a_picture_is_drawn_again),   cmocka_unit_test(long_values_are_carried_whole),
+        cmocka_unit_test(each_frame_carries_its_own), cmocka_unit_test(options_go_first),
+        cmocka_unit_test(what_cannot_be_is_refused),  cmocka_unit_test(other_data_are_told),
+        cmocka_unit_test(a_report_is_of_it),          cmocka_unit_test(a_picture_names_no_files),
     };
     return cmocka_run_group_tests(tests, opening, NULL);
 }
