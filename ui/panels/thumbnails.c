@@ -25,6 +25,8 @@ void ang_thumbnails_step(ang_viewer *viewer) {
     ang_document document = viewer->document;
     ang_document_take_preset(&document, presets[next]);
     document.view = ang_viewer_first_view;
+    document.crop = false;
+    document.clip = (ang_clip_plane){0};
     ang_error err = {0};
     bool made = ang_volume_thumbnail(viewer, &document, (int)ang_gui_px(viewer->gui, WIDTH),
                                      (int)ang_gui_px(viewer->gui, HEIGHT), &viewer->thumbnail[next], &err);
