@@ -177,6 +177,34 @@ static void a_handle_goes_with_the_pointer(void **state) {
     ang_volume_free(volume);
 }
 
+/* It stays under the pointer, in perspective too, at its distance from the eye. */
+static void a_corner_goes_across_the_line_of_sight(void **state) {
+    (void)state;
+    ang_volume *volume = cube();
+    volume->affine.m[1][2] = 1.25;
+    for (int parallel = 0; parallel < 2; parallel++) {
+        ang_pane_map map = map_of(volume, 35, 25, (ang_projection)parallel);
+        ang_crop_box before = {{10, 5, 2}, {30, 15, 6}};
+        for (int corner = 0; corner < ANG_CROP_CORNERS; corner++) {
+            double x, y, to_x, to_y;
+            ang_vec3 from = ang_crop_corner(&before, volume, corner);
+            unsigned faces = ang_crop_corner_faces(corner);
+            assert_true(ang_pane_map_point(&map, from, &x, &y));
+            bool seen = ang_crop_corner_seen(&before, volume, corner, &map);
+            assert_int_equal(ang_crop_pick(&before, volume, &map, x + 1, y - 2, 5), seen ? faces : 0);
+            ang_crop_box box = ang_crop_drag(&before, volume, faces, &map, 7, -4);
+            ang_vec3 to = ang_crop_corner(&box, volume, corner);
+            assert_true(ang_pane_map_point(&map, to, &to_x, &to_y));
+            assert_close(to_x, x + 7, 1e-9);
+            assert_close(to_y, y - 4, 1e-9);
+            assert_close(ang_vec3_dot(ang_vec3_sub(to, from), map.forward), 0, 1e-9);
+            ang_vec3 opposite = ang_crop_corner(&before, volume, 7 - corner);
+            assert_close(ang_vec3_length(ang_vec3_sub(ang_crop_corner(&box, volume, 7 - corner), opposite)), 0, 1e-12);
+        }
+    }
+    ang_volume_free(volume);
+}
+
 /* A tilted gantry shears: the index of a face is that of the place to which the hand has taken it. */
 static void in_slices_faces_go_with_the_place_under_the_pointer(void **state) {
     (void)state;
@@ -219,6 +247,7 @@ int main(void) {
         cmocka_unit_test(faces_are_seen_from_their_side),
         cmocka_unit_test(handles_are_found_where_they_appear),
         cmocka_unit_test(a_handle_goes_with_the_pointer),
+        cmocka_unit_test(a_corner_goes_across_the_line_of_sight),
         cmocka_unit_test(in_slices_faces_go_with_the_place_under_the_pointer),
         cmocka_unit_test(sides_and_corners_are_found_in_slices),
     };

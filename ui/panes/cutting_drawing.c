@@ -33,6 +33,14 @@ static void draw_square(ang_viewer *viewer, const ang_cutting_pane *pane, double
         ang_gui_frame(viewer->gui, square, with_alpha(ANG_INK_CROP, plain));
 }
 
+/* A corner to take hold of, smaller than the squares. */
+static void draw_corner(ang_viewer *viewer, const ang_cutting_pane *pane, ang_vec3 mm, bool hot) {
+    double x, y, radius = ang_gui_px(viewer->gui, hot ? 6 : 3);
+    if (!ang_pane_map_point(&pane->map, mm, &x, &y)) return;
+    ang_gui_disc(viewer->gui, pane->rect.x + x, pane->rect.y + y, radius + 1, ANG_INK(0, 0, 0, 190));
+    ang_gui_disc(viewer->gui, pane->rect.x + x, pane->rect.y + y, radius, hot ? ANG_INK_TEXT : ANG_INK_CROP);
+}
+
 static void draw_box(ang_viewer *viewer, const ang_cutting_pane *pane, unsigned hot) {
     const ang_volume *volume = viewer->study.volume;
     ang_crop_box box = ang_crop_box_of(&viewer->document);
@@ -52,6 +60,9 @@ static void draw_box(ang_viewer *viewer, const ang_cutting_pane *pane, unsigned 
                 draw_square(viewer, pane, x, y, seen[face], hot >> face & 1);
         }
     }
+    for (int i = 0; i < ANG_CROP_CORNERS; i++)
+        if (ang_crop_corner_seen(&box, volume, i, &pane->map))
+            draw_corner(viewer, pane, ang_crop_corner(&box, volume, i), hot == ang_crop_corner_faces(i));
 }
 
 /* In the middle of what shows of a side; on the pane's edge whole, and beside the letter that is there. */

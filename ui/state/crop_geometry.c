@@ -69,6 +69,22 @@ bool ang_crop_face_seen(const ang_crop_box *box, const ang_volume *volume, int f
     return ang_vec3_dot(normal, sight) * out < 0;
 }
 
+ang_vec3 ang_crop_corner(const ang_crop_box *box, const ang_volume *volume, int number) {
+    return corner(box, volume, (bool[3]){number & 1, number & 2, number & 4});
+}
+
+unsigned ang_crop_corner_faces(int number) {
+    unsigned faces = 0;
+    for (int axis = 0; axis < 3; axis++) faces |= 1u << (2 * axis + (number >> axis & 1));
+    return faces;
+}
+
+bool ang_crop_corner_seen(const ang_crop_box *box, const ang_volume *volume, int number, const ang_pane_map *map) {
+    for (int face = 0; face < ANG_CROP_FACES; face++)
+        if (ang_crop_corner_faces(number) >> face & 1 && ang_crop_face_seen(box, volume, face, map)) return true;
+    return false;
+}
+
 ang_crop_edge ang_crop_edge_of(const ang_crop_box *box, const ang_volume *volume, int edge) {
     int axis = edge / 4, next = (axis + 1) % 3, last = (axis + 2) % 3;
     bool upper[3];
@@ -113,21 +129,37 @@ int ang_crop_outline(const ang_crop_box *box, const ang_volume *volume, ang_vec3
     return count;
 }
 
+/* Of a place from a place of the pane, pixels; infinite where it does not show. */
+static double distance_of(const ang_pane_map *map, ang_vec3 mm, double x, double y) {
+    double at_x, at_y;
+    return ang_pane_map_point(map, mm, &at_x, &at_y) ? hypot(at_x - x, at_y - y) : INFINITY;
+}
+
+static unsigned pick_corner(const ang_crop_box *box, const ang_volume *volume, const ang_pane_map *map, double x,
+                            double y, double radius) {
+    unsigned faces = 0;
+    for (int i = 0; i < ANG_CROP_CORNERS; i++) {
+        double distance = distance_of(map, ang_crop_corner(box, volume, i), x, y);
+        if (distance > radius || !ang_crop_corner_seen(box, volume, i, map)) continue;
+        radius = distance;
+        faces = ang_crop_corner_faces(i);
+    }
+    return faces;
+}
+
 unsigned ang_crop_pick(const ang_crop_box *box, const ang_volume *volume, const ang_pane_map *map, double x, double y,
                        double radius) {
     int best = -1;
     double nearest = radius;
     for (int face = 0; face < ANG_CROP_FACES; face++) {
-        double at_x, at_y;
-        if (!ang_pane_map_point(map, ang_crop_face_middle(box, volume, face), &at_x, &at_y)) continue;
-        double distance = hypot(at_x - x, at_y - y);
+        double distance = distance_of(map, ang_crop_face_middle(box, volume, face), x, y);
         /* One that is seen lies over one that is not. */
         if (!ang_crop_face_seen(box, volume, face, map)) distance += 0.5 * radius;
         if (distance > nearest) continue;
         nearest = distance;
         best = face;
     }
-    return best < 0 ? 0 : 1u << best;
+    return best >= 0 ? 1u << best : pick_corner(box, volume, map, x, y, radius);
 }
 
 unsigned ang_crop_pick_side(const ang_crop_side *sides, int count, const ang_pane_map *map, double x, double y,
@@ -165,9 +197,20 @@ ang_crop_box ang_crop_drag_slice(const ang_crop_box *before, const ang_volume *v
     return box;
 }
 
+static ang_crop_box drag_corner(const ang_crop_box *before, const ang_volume *volume, int number,
+                                const ang_pane_map *map, double dx, double dy) {
+    ang_vec3 from = ang_crop_corner(before, volume, number);
+    double scale = ang_pane_map_scale(map, from);
+    if (!(scale > 0)) return *before;
+    ang_vec3 to = ang_vec3_along(ang_vec3_along(from, map->right, dx / scale), map->down, dy / scale);
+    return ang_crop_drag_slice(before, volume, ang_crop_corner_faces(number), from, to);
+}
+
 ang_crop_box ang_crop_drag(const ang_crop_box *before, const ang_volume *volume, unsigned faces,
                            const ang_pane_map *map, double dx, double dy) {
     ang_crop_box box = *before;
+    for (int i = 0; i < ANG_CROP_CORNERS; i++)
+        if (faces == ang_crop_corner_faces(i)) return drag_corner(before, volume, i, map, dx, dy);
     for (int face = 0; face < ANG_CROP_FACES; face++) {
         double x, y;
         ang_vec3 middle = ang_crop_face_middle(before, volume, face);

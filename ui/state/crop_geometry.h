@@ -7,7 +7,7 @@
 #include "ui/state/pane_map.h"
 
 /* Faces are numbered 2 * axis, and one more for the upper one of the axis; sets of them are 1 << face. */
-enum { ANG_CROP_FACES = 6, ANG_CROP_EDGES = 12 };
+enum { ANG_CROP_FACES = 6, ANG_CROP_EDGES = 12, ANG_CROP_CORNERS = 8 };
 
 /* Voxel index space, within ang_volume_box, at least a voxel thick. */
 typedef struct ang_crop_box {
@@ -28,6 +28,13 @@ ang_vec3 ang_crop_face_middle(const ang_crop_box *box, const ang_volume *volume,
 /* Whether the eye sees a face from outside. */
 bool ang_crop_face_seen(const ang_crop_box *box, const ang_volume *volume, int face, const ang_pane_map *map);
 
+/* A corner, bit `axis` of its number set for the upper end of that axis: LPS mm, and the set of the faces that meet in
+ * it. */
+ang_vec3 ang_crop_corner(const ang_crop_box *box, const ang_volume *volume, int corner);
+unsigned ang_crop_corner_faces(int corner);
+/* Whether the eye sees one of them from outside. */
+bool ang_crop_corner_seen(const ang_crop_box *box, const ang_volume *volume, int corner, const ang_pane_map *map);
+
 typedef struct ang_crop_edge {
     ang_vec3 ends[2]; /* LPS mm */
     int faces[2];     /* that meet in it */
@@ -44,8 +51,8 @@ typedef struct ang_crop_side {
 int ang_crop_outline(const ang_crop_box *box, const ang_volume *volume, ang_vec3 normal, double offset_mm,
                      ang_crop_side sides[ANG_CROP_FACES]);
 
-/* The set of faces whose handle is at (x, y), at most `radius` pixels away: the nearest, among those as near one that
- * is seen; 0: none. */
+/* The set of faces whose handle is at (x, y), at most `radius` pixels away: the nearest middle of a face, among those
+ * as near one that is seen; else the nearest corner that is seen; 0: none. */
 unsigned ang_crop_pick(const ang_crop_box *box, const ang_volume *volume, const ang_pane_map *map, double x, double y,
                        double radius);
 /* The same for the sides in a slice pane: one, or two where they meet. */
@@ -53,7 +60,8 @@ unsigned ang_crop_pick_side(const ang_crop_side *sides, int count, const ang_pan
                             double radius);
 
 /* The box when the hand has taken `faces` of `before` and gone from one place of the pane to another. In a slice pane
- * faces go with the place under the pointer, in the 3D pane their handles go along their axes. */
+ * faces go with the place under the pointer. In the 3D pane the handle of one face goes along its axis, and a corner,
+ * which takes three, across the line of sight. */
 ang_crop_box ang_crop_drag_slice(const ang_crop_box *before, const ang_volume *volume, unsigned faces, ang_vec3 from_mm,
                                  ang_vec3 to_mm);
 ang_crop_box ang_crop_drag(const ang_crop_box *before, const ang_volume *volume, unsigned faces,
