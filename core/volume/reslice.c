@@ -97,13 +97,23 @@ static inline double sample(const ang_volume *volume, const double at[3]) {
                mix(mix(v[dz], v[dz + dx], fx), mix(v[dz + dy], v[dz + dy + dx], fx), fy), fz);
 }
 
+static inline double sample_nearest(const ang_volume *volume, const double at[3]) {
+    size_t index[3];
+    for (int axis = 0; axis < 3; axis++) {
+        double whole = floor(at[axis] + 0.5), top = volume->dims[axis] - 1;
+        index[axis] = (size_t)(whole < 0 ? 0 : whole > top ? top : whole);
+    }
+    return volume->data[(index[2] * (size_t)volume->dims[1] + index[1]) * (size_t)volume->dims[0] + index[0]];
+}
+
 /* Adds the pixels [first, end) of one plane to the piece that begins at pixel `begin`. */
 static void add(const job *job, const double start[3], int first, int end, int begin, piece *piece) {
     ang_slab slab = job->plane->slab;
     for (int i = first; i < end; i++) {
         const double at[3] = {start[0] + i * job->step_x[0], start[1] + i * job->step_x[1],
                               start[2] + i * job->step_x[2]};
-        double value = sample(job->volume, at), *to = &piece->value[i - begin];
+        double value = job->plane->nearest ? sample_nearest(job->volume, at) : sample(job->volume, at);
+        double *to = &piece->value[i - begin];
         if (piece->planes[i - begin]++ == 0)
             *to = value;
         else

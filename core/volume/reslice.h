@@ -16,6 +16,7 @@ typedef struct ang_reslice_plane {
     int width, height;               /* pixels, >= 1 */
     double thickness_mm;             /* of the slab, half to each side of the plane, along its normal; 0: the plane */
     ang_slab slab;                   /* where thickness_mm > 0 */
+    bool nearest;                    /* the nearest voxel's value, not interpolated */
 } ang_reslice_plane;
 
 /* The most planes that a slab is sampled by. */
@@ -27,9 +28,9 @@ enum { ANG_RESLICE_MOST_PLANES = 1024 };
 int ang_reslice_planes(const ang_volume *volume, const ang_reslice_plane *plane);
 
 /* Writes HU, rows of `width` floats, to `hu`: trilinear interpolation between voxel centres, so exact for a field that
- * is linear between them; NAN outside the box (DESIGN.md, "Box"). In a slab what lies outside is left out. In parallel,
- * independent of `threads` (0: all). False with ANG_USAGE (parallel steps, no pixels) and ANG_GEOMETRY (a singular
- * affine). Thread safe. */
+ * is linear between them, or with `nearest` the value of the voxel in whose cell the place lies; NAN outside the box
+ * (DESIGN.md, "Box"). In a slab what lies outside is left out. In parallel, independent of `threads` (0: all). False
+ * with ANG_USAGE (parallel steps, no pixels) and ANG_GEOMETRY (a singular affine). Thread safe. */
 bool ang_reslice(const ang_volume *volume, const ang_reslice_plane *plane, int threads, float *hu, ang_error *err);
 
 #endif

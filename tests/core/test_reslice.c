@@ -74,6 +74,37 @@ static void linear_fields_are_exact_at_any_angle(void **state) {
     ang_volume_free(volume);
 }
 
+/* Not interpolated: each place has the value of the voxel whose centre is nearest along the volume's axes. */
+static void nearest_voxels_have_one_value(void **state) {
+    (void)state;
+    ang_volume *volume = make_volume(24, 30, 14, (double[]){1, 1, 1}, linear);
+    make_oblique(volume);
+    ang_mat4 to_index;
+    assert_true(ang_mat4_inverse(&volume->affine, &to_index));
+    ang_reslice_plane plane = {
+        .step_x = {0.21, 0.05, 0.1}, .step_y = {-0.08, 0.19, 0.04}, .width = side, .height = side, .nearest = true};
+    ang_vec3 centre = ang_volume_centre(volume);
+    plane.origin = ang_vec3_along(ang_vec3_along(centre, plane.step_x, -side / 2.0), plane.step_y, -side / 2.0);
+    assert_true(ang_reslice(volume, &plane, 0, hu, NULL));
+    int seen = 0;
+    for (int j = 0; j < side; j++)
+        for (int i = 0; i < side; i++) {
+            ang_vec3 at = pixel_place(&plane, i, j);
+            if (!inside(volume, at, 1e-3)) continue;
+            ang_vec3 index = ang_mat4_point(&to_index, at);
+            double value = (double)hu[j * side + i], edge = 0;
+            for (int axis = 0; axis < 3; axis++) {
+                double from = ang_vec3_at(index, axis) + 0.5;
+                edge = fmax(edge, 0.5 - fabs(from - floor(from) - 0.5) < 1e-6); /* rounding decides */
+            }
+            if (edge > 0) continue;
+            assert_close(value, linear((int)round(index.x), (int)round(index.y), (int)round(index.z)), 1e-3);
+            seen++;
+        }
+    assert_true(seen > 500);
+    ang_volume_free(volume);
+}
+
 static void voxels_come_back_on_their_own_grid(void **state) {
     (void)state;
     ang_volume *volume = make_volume(9, 8, 7, (double[]){0.5, 0.75, 2}, one_bright);
@@ -151,11 +182,9 @@ static void what_cannot_be_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(linear_fields_are_exact_at_any_angle),
-        cmocka_unit_test(voxels_come_back_on_their_own_grid),
-        cmocka_unit_test(slabs_show_mean_and_extremes),
-        cmocka_unit_test(axes_of_one_voxel_have_a_thickness),
-        cmocka_unit_test(what_cannot_be_is_refused),
+        cmocka_unit_test(linear_fields_are_exact_at_any_angle), cmocka_unit_test(nearest_voxels_have_one_value),
+        cmocka_unit_test(voxels_come_back_on_their_own_grid),   cmocka_unit_test(slabs_show_mean_and_extremes),
+        cmocka_unit_test(axes_of_one_voxel_have_a_thickness),   cmocka_unit_test(what_cannot_be_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
