@@ -20,6 +20,7 @@ const char *ang_base_name(const char *path) {
 void ang_load_report_clear(ang_load_report *report) {
     for (size_t i = 0; i < report->series_count; i++) {
         free(report->series[i].description);
+        free(report->series[i].patient);
         free(report->series[i].uid);
         free(report->series[i].remark);
     }

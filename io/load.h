@@ -27,6 +27,7 @@ typedef struct ang_series_info {
     int number;        /* 1, 2, ... in the list */
     char modality[17]; /* a defined term, "other", or "?" where none is given */
     char *description; /* SeriesDescription: may identify a patient */
+    char *patient;     /* PatientName as DICOM writes it: identifies; NULL: the format has none */
     char *uid;         /* SeriesInstanceUID: identifies */
     int width, height, slices;
     double spacing_mm[3]; /* along rows, columns and the normal: the mean distance of its slices (dicom-rules 4) */

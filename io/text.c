@@ -1,6 +1,9 @@
 #include "io/text.h"
 
+#include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <string.h>
 
 /* Bytes of the printable character at `p`, NUL-terminated; 0 where there is none. */
 static int character_length(const uint8_t *p) {
@@ -36,4 +39,18 @@ void ang_text_from_latin1(const char *text, char *out, size_t size) {
         out[used++] = (char)(needed == 2 ? 0x80 | (*p & 0x3F) : *p);
     }
     if (size) out[used] = 0;
+}
+
+void ang_person_name_print(const char *name, char *out, size_t size) {
+    char part[3][257] = {""}; /* family, given and middle name; titles are left out */
+    name += strspn(name, "=");
+    for (int i = 0; i < 3; i++) {
+        size_t length = strcspn(name, "^=");
+        snprintf(part[i], sizeof part[i], "%.*s", (int)length, name);
+        name += length + (name[length] == '^');
+    }
+    bool more = part[1][0] || part[2][0];
+    snprintf(out, size, "%s%s%s%s%s", part[0], part[0][0] && more ? ", " : "", part[1],
+             part[1][0] && part[2][0] ? " " : "", part[2]);
+    ang_text_clean(out); /* a character that was cut */
 }

@@ -11,4 +11,8 @@ void ang_text_clean(char *text);
 /* Latin-1 (ISO 8859-1) becomes UTF-8 in `out`, cut to `size` bytes between characters. */
 void ang_text_from_latin1(const char *text, char *out, size_t size);
 
+/* A person's name of DICOM (PN, PS3.5 6.2.1.1), "Family^Given^Middle^Prefix^Suffix", as one reads it: "Family, Given
+ * Middle", cut to `size` bytes. Of its up to three groups the first that is not empty. */
+void ang_person_name_print(const char *name, char *out, size_t size);
+
 #endif

@@ -94,13 +94,14 @@ static bool describe(const ang_dicom_slice *slices, const ang_dicom_group *group
     const ang_dicom_slice *first = &slices[group->order[0]];
     *info = (ang_series_info){.number = number,
                               .description = strdup(first->description),
+                              .patient = strdup(first->patient),
                               .uid = strdup(first->series_uid),
                               .remark = strdup(group->remark),
                               .width = first->columns,
                               .height = first->rows,
                               .slices = (int)group->count,
                               .loadable = group->loadable};
-    if (!info->description || !info->uid || !info->remark)
+    if (!info->description || !info->patient || !info->uid || !info->remark)
         return ang_fail(err, ANG_LIMIT, "no memory for the list of series");
     snprintf(info->modality, sizeof info->modality, "%s",
              first->modality[0] ? ang_dicom_modality(first->modality) : "?");

@@ -56,15 +56,15 @@ static bool word(ang_dicom_reader *reader, const ang_dicom_element *element, int
 }
 
 /* PS3.3 C.12.1.1.2: Latin-1 is taken over; of other sets than UTF-8 what is not ASCII becomes '?'. */
-static void take_description(ang_dicom_reader *r, const ang_dicom_element *e, const char *set, ang_dicom_slice *s) {
-    char text[sizeof s->description];
+static void take_words(ang_dicom_reader *r, const ang_dicom_element *e, const char *set, char out[257]) {
+    char text[257];
     bool latin1 = strcmp(set, "ISO_IR 100") == 0 || strcmp(set, "ISO 2022 IR 100") == 0;
     ang_dicom_text(r, e, text, sizeof text);
     if (latin1)
-        ang_text_from_latin1(text, s->description, sizeof s->description);
+        ang_text_from_latin1(text, out, sizeof text);
     else
-        snprintf(s->description, sizeof s->description, "%s", text);
-    ang_text_clean(s->description);
+        snprintf(out, sizeof text, "%s", text);
+    ang_text_clean(out);
 }
 
 static void take_identity(ang_dicom_reader *r, const ang_dicom_element *e, ang_dicom_slice *s, seen *seen) {
@@ -94,7 +94,10 @@ static void take_identity(ang_dicom_reader *r, const ang_dicom_element *e, ang_d
         ang_dicom_text(r, e, s->modality, sizeof s->modality);
         break;
     case TAG(0x0008, 0x103E):
-        take_description(r, e, seen->character_set, s);
+        take_words(r, e, seen->character_set, s->description);
+        break;
+    case TAG(0x0010, 0x0010):
+        take_words(r, e, seen->character_set, s->patient);
         break;
     case TAG(0x0020, 0x000E):
         ang_dicom_text(r, e, s->series_uid, sizeof s->series_uid);
@@ -356,7 +359,7 @@ ang_dicom_found ang_dicom_header(const char *path, const char *label, ang_dicom_
     size_t count = 0;
     for (ang_dicom_element element; ang_dicom_next(reader, &element); count++) {
         uint32_t group = element.tag >> 16;
-        if (group == 0x0008 || group == 0x0020) take_identity(reader, &element, slice, &seen);
+        if (group == 0x0008 || group == 0x0010 || group == 0x0020) take_identity(reader, &element, slice, &seen);
         if (group == 0x0018 || group == 0x0020 || group == 0x0028) take_geometry(reader, &element, slice);
         if (group >= 0x0028) take_pixels(reader, &element, slice, &seen);
     }

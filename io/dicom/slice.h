@@ -27,6 +27,7 @@ typedef struct ang_dicom_slice {
     char sop_class[65], series_uid[65], transfer_syntax[65];
     char modality[17];
     char description[257]; /* UTF-8 */
+    char patient[257];     /* PatientName, UTF-8, its components separated by '^' */
     char image_type[129];  /* values separated by '\\' */
     char photometric[17];
     char stack_id[17];

@@ -45,7 +45,7 @@ typedef struct form {
     double z;
     int instance;
     const char *slope, *intercept, *photometric, *spacing;
-    const char *position, *orientation, *modality, *image_type, *sop_class, *character_set, *description;
+    const char *position, *orientation, *modality, *image_type, *sop_class, *character_set, *description, *patient;
     bool no_rows, is_signed, has_padding, cut, no_position, no_orientation;
     bool damaged; /* the header is sound, the (compressed) pixels are not */
     bool no_image;
@@ -72,6 +72,7 @@ static inline void small(const char *name, const form *form) {
     put_text(&f, 8, 0x16, "UI", form->sop_class ? form->sop_class : "1.2.840.10008.5.1.4.1.1.2");
     put_text(&f, 8, 0x60, "CS", form->modality ? form->modality : "CT");
     put_text(&f, 8, 0x103E, "LO", form->description ? form->description : "JOHN DOE HEAD");
+    put_text(&f, 0x10, 0x10, "PN", form->patient ? form->patient : "DOE^MARY");
     put_text(&f, 0x20, 0x0E, "UI", "1.2.3.4");
     snprintf(text, sizeof text, "%d", form->instance);
     put_text(&f, 0x20, 0x13, "IS", text);

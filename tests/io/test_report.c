@@ -170,6 +170,48 @@ static void test_descriptions_are_utf8(void **state) {
     }
 }
 
+/* For the screen alone. */
+static void test_names_are_read_but_not_reported(void **state) {
+    (void)state;
+    fresh_folder(FOLDER);
+    form f = form_at(0, 1000);
+    f.character_set = "ISO_IR 100";
+    f.patient = "M\xFCller^Eva";
+    small("a", &f);
+    ang_load_report report = {0};
+    ang_volume *volume = ang_load(FOLDER, &(ang_load_options){0}, &report, NULL, NULL);
+    assert_non_null(volume);
+    assert_string_equal(report.series[0].patient, "M\xC3\xBCller^Eva");
+    ang_volume_free(volume);
+    ang_load_report_clear(&report);
+    for (int keep = 0; keep < 2; keep++) {
+        reported r = report_of(FOLDER, keep);
+        expect_in_neither(&r, "Eva");
+        clear(&r);
+    }
+}
+
+static void test_person_names(void **state) {
+    (void)state;
+    static const char *const cases[][2] = {{"Doe^Jane", "Doe, Jane"},
+                                           {"Doe^Jane^Q^Dr^PhD", "Doe, Jane Q"},
+                                           {"Doe", "Doe"},
+                                           {"Doe^^Q", "Doe, Q"},
+                                           {"^Jane", "Jane"},
+                                           {"Yamada^Tarou=\xE5\xB1\xB1^x", "Yamada, Tarou"},
+                                           {"=\xE5\xB1\xB1", "\xE5\xB1\xB1"},
+                                           {"", ""}};
+    char text[64];
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ang_person_name_print(cases[i][0], text, sizeof text);
+        assert_string_equal(text, cases[i][1]);
+    }
+    ang_person_name_print("Doe^Jane", text, 6);
+    assert_string_equal(text, "Doe, ");
+    ang_person_name_print("D\xC3\xB6", text, 3); /* no half character */
+    assert_string_equal(text, "D?");
+}
+
 static void test_what_is_not_loaded_is_listed(void **state) {
     (void)state;
     fresh_folder(FOLDER);
@@ -263,6 +305,8 @@ int main(void) {
         cmocka_unit_test(test_file_names_are_masked),
         cmocka_unit_test(test_header_text_is_not_repeated),
         cmocka_unit_test(test_descriptions_are_utf8),
+        cmocka_unit_test(test_names_are_read_but_not_reported),
+        cmocka_unit_test(test_person_names),
         cmocka_unit_test(test_what_is_not_loaded_is_listed),
         cmocka_unit_test(test_values_that_are_no_hounsfield_units),
         cmocka_unit_test(test_distances_are_along_the_normal),
