@@ -157,7 +157,7 @@ static const option_spec table[] = {
     FLAG_OPTION("annotate", 0, ANG_VERB_RENDER, annotate,
                 "draw orientation letters, a millimetre bar, preset, mode, and how wrong the picture may be"),
     FLAG_OPTION("strict", 0, READS, strict, "refuse input (exit code 4) where loading it gives a warning"),
-    FLAG_OPTION("keep-phi", 0, ANG_VERB_INFO | ANG_VERB_RENDER, keep_phi,
+    FLAG_OPTION("keep-phi", 0, ANG_VERB_INFO | ANG_VERB_RENDER | ANG_VERB_VIEW, keep_phi,
                 "let what may identify a patient into the output"),
     TEXT_OPTION("raw-dims", READS, raw_dims, "XxYxZ", NULL, "size of raw input, x fastest"),
     TEXT_OPTION("raw-type", READS, raw_type, "TYPE", NULL, "u8, i8, u16, i16 or f32, little endian"),

@@ -13,6 +13,7 @@
 #include "io/preset.h"
 #include "io/replace.h"
 #include "io/state.h"
+#include "io/text.h"
 #include "ui/viewer.h"
 
 #include <stdio.h>
@@ -40,9 +41,10 @@ static void copy_notes(const ang_load_report *report, ang_study *study) {
 
 static void write_label(const ang_load_report *report, ang_study *study) {
     const ang_series_info *info = &report->series[report->chosen];
-    bool described = info->description && info->description[0], named = strcmp(info->modality, "?") != 0;
-    snprintf(study->label, sizeof study->label, "%s series %d%s%.60s", named ? info->modality : report->format,
-             info->number, described ? ": " : "", described ? info->description : "");
+    bool named = strcmp(info->modality, "?") != 0;
+    snprintf(study->label, sizeof study->label, "%s series %d", named ? info->modality : report->format, info->number);
+    if (info->description) snprintf(study->description, sizeof study->description, "%s", info->description);
+    if (info->patient) ang_person_name_print(info->patient, study->patient, sizeof study->patient);
 }
 
 static void release(void *context, ang_study *study) {
@@ -233,7 +235,8 @@ static bool run(view *view, ang_error *err) {
                             .presets = (const ang_preset *const *)view->presets,
                             .font = ang_font_find(),
                             .version = ANG_VERSION,
-                            .threads = options->threads};
+                            .threads = options->threads,
+                            .keep_phi = options->keep_phi};
     return ang_viewer_run(&host, &how, err);
 }
 

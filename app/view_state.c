@@ -102,6 +102,11 @@ static void copy_window(const ang_viewer_state *shown, ang_state *state) {
     state->window_width = document->window_width;
     state->slab = document->slab;
     state->slab_mm = document->slab_mm;
+    const ang_turn *turn = &document->turn;
+    const double turned[9] = {turn->x.x, turn->x.y, turn->x.z, turn->y.x, turn->y.y,
+                              turn->y.z, turn->z.x, turn->z.y, turn->z.z};
+    memcpy(state->planes_turn, turned, sizeof turned);
+    state->voxels_shown = shown->voxels_shown;
     state->crosshair = shown->crosshair;
     state->crop_lower = document->crop_lower;
     state->crop_upper = document->crop_upper;
@@ -191,6 +196,12 @@ static bool take_method(const ang_state *state, const char *file, ang_session *s
            ang_fail(err, ANG_USAGE, "%s: method is \"%s\", which there is none of", file, name);
 }
 
+static bool take_turn(const ang_state *state, const char *file, ang_turn *turn, ang_error *err) {
+    const double *t = state->planes_turn;
+    *turn = (ang_turn){{t[0], t[1], t[2]}, {t[3], t[4], t[5]}, {t[6], t[7], t[8]}};
+    return ang_turn_mend(turn) || ang_fail(err, ANG_USAGE, "%s: planes_turn is no rotation", file);
+}
+
 bool ang_view_session_of(const ang_state *state, const char *file, const ang_study *study, ang_session *session,
                          ang_error *err) {
     *session = (ang_session){
@@ -213,8 +224,9 @@ bool ang_view_session_of(const ang_state *state, const char *file, const ang_stu
         memcpy(session->slice[i].pan_mm, state->slice[i].pan_mm, sizeof session->slice[i].pan_mm);
     }
     memcpy(session->tool, state->tool, sizeof session->tool);
-    return take_picture(state, file, study, document, err) && take_maximised(state, file, session, err) &&
-           take_method(state, file, session, err);
+    session->voxels_shown = state->voxels_shown;
+    return take_picture(state, file, study, document, err) && take_turn(state, file, &document->turn, err) &&
+           take_maximised(state, file, session, err) && take_method(state, file, session, err);
 }
 
 static void add_slices(cJSON *live, const ang_viewer_state *shown) {
@@ -222,6 +234,12 @@ static void add_slices(cJSON *live, const ang_viewer_state *shown) {
         cJSON *slice = cJSON_AddObjectToObject(live, ang_orientation_name((ang_orientation)i));
         cJSON_AddNumberToObject(slice, "slice", shown->slice[i].index + 1);
         cJSON_AddNumberToObject(slice, "slices", shown->slice[i].count);
+        const ang_slice_axes *axes = &shown->slice[i].axes;
+        add_numbers(slice, "right", (double[]){axes->right.x, axes->right.y, axes->right.z}, 3);
+        add_numbers(slice, "down", (double[]){axes->down.x, axes->down.y, axes->down.z}, 3);
+        ang_json_add_number(slice, "mm_per_pixel", shown->slice[i].mm_per_pixel);
+        ang_json_add_number(slice, "lean_deg", ang_slice_lean(&shown->document->turn, (ang_orientation)i));
+        ang_json_add_number(slice, "turned_deg", ang_slice_turned(&shown->document->turn, (ang_orientation)i));
     }
 }
 
@@ -242,6 +260,11 @@ static void add_clip_plane(cJSON *live, const ang_clip_plane *clip) {
 
 static void add_live(cJSON *live, const ang_viewer_state *shown) {
     add_slices(live, shown);
+    cJSON *cine = cJSON_AddObjectToObject(live, "cine");
+    cJSON_AddStringToObject(cine, "pane", shown->cine->running ? pane_names[shown->cine->pane] : "");
+    ang_json_add_number(cine, "per_second", shown->cine->per_second);
+    cJSON_AddBoolToObject(cine, "back_and_forth", shown->cine->back_and_forth);
+    cJSON_AddBoolToObject(live, "names_hidden", shown->names_hidden);
     cJSON *editor = cJSON_AddObjectToObject(live, "editor");
     const ang_rect *plot = &shown->editor;
     add_numbers(editor, "plot", (double[]){plot->x, plot->y, plot->width, plot->height}, 4);

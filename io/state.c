@@ -16,6 +16,7 @@ const ang_state ang_state_default = {.stretch = 1,
                                      .crosshair = {NAN, NAN, NAN},
                                      .crop_lower = {NAN, NAN, NAN},
                                      .crop_upper = {NAN, NAN, NAN},
+                                     .planes_turn = {1, 0, 0, 0, 1, 0, 0, 0, 1},
                                      .slice = {{.zoom = 1}, {.zoom = 1}, {.zoom = 1}},
                                      .corner_text = true,
                                      .crosshair_lines = true};
@@ -110,6 +111,7 @@ static void add_window(cJSON *root, const ang_state *state) {
         add_numbers(crop, "lower", (double[]){lower->x, lower->y, lower->z}, 3);
         add_numbers(crop, "upper", (double[]){upper->x, upper->y, upper->z}, 3);
     }
+    add_numbers(root, "planes_turn", state->planes_turn, 9);
     for (int i = 0; i < ANG_STATE_SLICES; i++) {
         cJSON *slice = cJSON_AddObjectToObject(root, names[i]);
         add_number(slice, "zoom", state->slice[i].zoom);
@@ -124,6 +126,7 @@ static void add_window(cJSON *root, const ang_state *state) {
     cJSON_AddStringToObject(root, "maximised", state->maximised);
     add_text(root, "tool", state->tool);
     add_text(root, "method", state->method);
+    cJSON_AddBoolToObject(root, "voxels_shown", state->voxels_shown);
     cJSON_AddBoolToObject(root, "corner_text", state->corner_text);
     cJSON_AddBoolToObject(root, "crosshair_lines", state->crosshair_lines);
 }

@@ -44,9 +44,11 @@ typedef struct ang_state {
     ang_vec3 crop_lower, crop_upper; /* the crop box, also while the picture is not cropped (it is by an option "clip"):
                                         voxel index; all NaN where open */
     ang_state_slice slice[ANG_STATE_SLICES];
-    char maximised[16];                /* the pane that is large; "": none */
-    char tool[16];                     /* of the left button */
-    char method[16];                   /* as chosen: "auto" or a name */
+    double planes_turn[9]; /* where the slice planes' L, P and H directions have gone to: three unit vectors */
+    bool voxels_shown;     /* slices are not interpolated */
+    char maximised[16];    /* the pane that is large; "": none */
+    char tool[16];         /* of the left button */
+    char method[16];       /* as chosen: "auto" or a name */
     bool corner_text, crosshair_lines; /* shown on the panes */
 } ang_state;
 
@@ -61,7 +63,8 @@ const char *ang_state_option_value(const ang_state *state, const char *name);
 int ang_state_series(const ang_state *state);
 
 /* The state as a JSON object: {"angioscope_state": 1, "program", "input": {"path", "name", ...}, "preset": {...}, as in
- * preset.h, "render": {OPTION: VALUE, ...}, "window": {"centre", "width"}, "crosshair_mm", "axial": {"zoom", "pan_mm"},
+ * preset.h, "render": {OPTION: VALUE, ...}, "window": {"centre", "width"}, "crosshair_mm", "planes_turn", "axial":
+ * {"zoom", "pan_mm"},
  * ..., "slab": {"mm", "mode"}, ...}. Every number exact. What is open is left out. `file` is where it will be written:
  * a path of the data below its folder becomes relative to that, any other absolute; NULL: no path. With `window` false
  * without what is of the window. NULL with ANG_LIMIT. Free with cJSON_Delete. */

@@ -10,28 +10,11 @@
 #include <string.h>
 #include <strings.h>
 
-static const char *const state_fields[] = {"angioscope_state",
-                                           "program",
-                                           "input",
-                                           "preset",
-                                           "render",
-                                           "window",
-                                           "axial",
-                                           "coronal",
-                                           "sagittal",
-                                           "slab",
-                                           "crosshair_mm",
-                                           "shift_hu",
-                                           "preset_changed",
-                                           "stretch",
-                                           "maximised",
-                                           "tool",
-                                           "method",
-                                           "corner_text",
-                                           "live",
-                                           "crosshair_lines",
-                                           "crop",
-                                           NULL};
+static const char *const state_fields[] = {
+    "angioscope_state", "program",      "input",  "preset",       "render",   "window",          "axial",
+    "coronal",          "sagittal",     "slab",   "crosshair_mm", "shift_hu", "preset_changed",  "stretch",
+    "maximised",        "tool",         "method", "corner_text",  "live",     "crosshair_lines", "crop",
+    "planes_turn",      "voxels_shown", NULL};
 static const char *const input_fields[] = {"path", "name", "raw_dims", "raw_type", "raw_spacing", NULL};
 static const char *const window_fields[] = {"centre", "width", NULL};
 static const char *const crop_fields[] = {"lower", "upper", NULL};
@@ -224,7 +207,9 @@ static bool read_window(reader *r) {
     if (!open_object(r, root, "", "window", window_fields, &window) ||
         !read_number(r, window, "window", "centre", -most_hu, most_hu, &state->window_centre) ||
         !read_number(r, window, "window", "width", least_width, INFINITY, &state->window_width) ||
-        !read_numbers(r, root, "", "crosshair_mm", 3, most_mm, at) || !read_slices(r) || !read_slab(r) || !read_crop(r))
+        !read_numbers(r, root, "", "crosshair_mm", 3, most_mm, at) ||
+        !read_numbers(r, root, "", "planes_turn", 9, 1 + 1e-6, state->planes_turn) || !read_slices(r) ||
+        !read_slab(r) || !read_crop(r))
         return false;
     state->crosshair = (ang_vec3){at[0], at[1], at[2]};
     return read_flag(r, "preset_changed", &state->preset_changed) &&
@@ -232,6 +217,7 @@ static bool read_window(reader *r) {
            read_number(r, root, "", "stretch", 1e-9, 1e9, &state->stretch) &&
            read_word(r, "maximised", state->maximised) && read_word(r, "tool", state->tool) &&
            read_word(r, "method", state->method) && read_flag(r, "corner_text", &state->corner_text) &&
+           read_flag(r, "voxels_shown", &state->voxels_shown) &&
            read_flag(r, "crosshair_lines", &state->crosshair_lines);
 }
 

@@ -1,5 +1,5 @@
 /* Everything that can be done by menu or key, in one table. */
-#include "ui/viewer_private.h"
+#include "ui/panes/playing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -73,6 +73,22 @@ static void reset_pane(ang_viewer *viewer, int pane) {
 static void reset_view(ang_viewer *viewer, int all) {
     for (int i = 0; i < ANG_PANES; i++)
         if (all || i == viewer->focus.pane) reset_pane(viewer, i);
+}
+
+static void straighten(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->document.turn = ang_turn_none;
+}
+static bool is_turned(const ang_viewer *viewer) {
+    return viewer->ready && !ang_turn_same(&viewer->document.turn, &ang_turn_none);
+}
+
+/* About the normal of the slice, as a drag of a handle does. */
+static void turn_planes(ang_viewer *viewer, int degrees) {
+    int pane = viewer->focus.pane;
+    ang_orientation orientation = pane < ANG_PANE_VOLUME ? (ang_orientation)pane : ANG_AXIAL;
+    ang_slice_axes axes = ang_slice_axes_of(&viewer->document.turn, orientation);
+    viewer->document.turn = ang_turn_about(&viewer->document.turn, axes.inward, degrees);
 }
 
 static void centre_crosshair(ang_viewer *viewer, int argument) {
@@ -163,6 +179,22 @@ static bool shows_crosshair(const ang_viewer *viewer, int argument) {
     (void)argument;
     return viewer->crosshair_shown;
 }
+static void toggle_names(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->names_hidden);
+}
+static bool shows_names(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return !viewer->names_hidden;
+}
+static void toggle_voxels(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->voxels_shown);
+}
+static bool shows_voxels(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->voxels_shown;
+}
 static void full_screen(ang_viewer *viewer, int argument) {
     (void)argument;
     ang_window_toggle_full_screen(viewer->window);
@@ -185,6 +217,26 @@ static void show_palette(ang_viewer *viewer, int argument) {
 static void to_menus(ang_viewer *viewer, int argument) {
     (void)argument;
     ang_gui_enter_menus(viewer->gui);
+}
+
+static void play(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_playing_toggle(viewer, (ang_pane)viewer->focus.pane);
+}
+static bool plays(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->cine.running;
+}
+static void play_faster(ang_viewer *viewer, int direction) {
+    ang_cine_set_faster(&viewer->cine, direction, viewer->input.time_seconds);
+}
+static void play_back_and_forth(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->cine.back_and_forth);
+}
+static bool plays_back_and_forth(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->cine.back_and_forth;
 }
 
 static void slab_thickness(ang_viewer *viewer, int direction) {
@@ -240,12 +292,14 @@ static const ang_action actions[] = {
     {"File", "Save state", "all that is shown, and where its data are: to go on later, and for render --state", 'S',
      C | A, save_state, 0, false, is_ready, NULL},
     {"File", "Quit", NULL, 'Q', C, quit, 0, true, NULL, NULL},
-    {"Edit", "Undo", "presets, points, windows, camera, crop", 'Z', C, undo, 0, false, can_undo, NULL},
+    {"Edit", "Undo", "presets, points, windows, camera, planes, crop", 'Z', C, undo, 0, false, can_undo, NULL},
     {"Edit", "Redo", NULL, 'Z', C | S, redo, 0, false, can_redo, NULL},
     {"Tools", "Window", "left drag in a slice: across width, up and down centre", 'W', 0, choose_tool, ANG_TOOL_WINDOW,
      false, is_ready, is_tool},
     {"Tools", "Crosshair", "left drag in a slice moves it", 'C', 0, choose_tool, ANG_TOOL_CROSSHAIR, false, is_ready,
      is_tool},
+    {"Tools", "Scroll", "left drag in a slice: up and down through the slices", 'S', 0, choose_tool, ANG_TOOL_SCROLL,
+     false, is_ready, is_tool},
     {"Tools", "Pan", "also middle drag, or Space and left drag", 'P', 0, choose_tool, ANG_TOOL_PAN, false, is_ready,
      is_tool},
     {"Tools", "Crop", "drag the handles of the crop box and the clip plane, in 3D and in slices", 'X', 0, choose_tool,
@@ -274,6 +328,8 @@ static const ang_action actions[] = {
      turns_about_crosshair},
     {"View", "Crosshair lines", NULL, 'X', S, toggle_crosshair, 0, true, is_ready, shows_crosshair},
     {"View", "Text on the panes", NULL, 'T', 0, toggle_text, 0, false, is_ready, shows_text},
+    {"View", "Patient's name", "and the series' description; left out of saved pictures unless --keep-phi is given",
+     ANG_KEY_F4, 0, toggle_names, 0, false, is_ready, shows_names},
     {"View", "Light theme", "of all but the pictures", 0, 0, toggle_theme, 0, true, NULL, is_light},
     {"View", "Full screen", NULL, ANG_KEY_F11, 0, full_screen, 0, false, NULL, NULL},
     {"Layout", "One pane large", "also a double click", ANG_KEY_ENTER, 0, maximise, 0, false, is_ready, is_maximised},
@@ -290,6 +346,20 @@ static const ang_action actions[] = {
     {"Slices", "Ten slices back", NULL, ANG_KEY_PAGE_DOWN, 0, scroll, -10, false, is_ready, NULL},
     {"Slices", "Thicker slab", NULL, ']', 0, slab_thickness, 1, true, is_ready, NULL},
     {"Slices", "Thinner slab", NULL, '[', 0, slab_thickness, -1, false, is_ready, NULL},
+    {"Slices", "Voxels as they are", "the nearest voxel's value, not interpolated", 'I', 0, toggle_voxels, 0, false,
+     is_ready, shows_voxels},
+    {"Slices", "Cine", "of the slices of the pane with the bright frame; in the 3D pane it turns", 'V', 0, play, 0,
+     true, is_ready, plays},
+    {"Slices", "Cine faster", NULL, ANG_KEY_UP, A, play_faster, 1, false, is_ready, NULL},
+    {"Slices", "Cine slower", NULL, ANG_KEY_DOWN, A, play_faster, -1, false, is_ready, NULL},
+    {"Slices", "Cine back and forth", "else from the first slice again", 'V', S, play_back_and_forth, 0, false,
+     is_ready, plays_back_and_forth},
+    {"Slices", "Turn the planes to the right",
+     "by 1 degree about the normal of the slice with the bright frame, else axial; "
+     "also by the handles of the crosshair",
+     ANG_KEY_RIGHT, A, turn_planes, 1, true, is_ready, NULL},
+    {"Slices", "Turn the planes to the left", NULL, ANG_KEY_LEFT, A, turn_planes, -1, false, is_ready, NULL},
+    {"Slices", "Planes along the patient", "not oblique", 'R', C, straighten, 0, false, is_turned, NULL},
     {"Help", "Find a command...", "type a part of its name", 'K', C, show_palette, 0, false, NULL, NULL},
     {"Help", "What keys and mouse do", NULL, ANG_KEY_F1, 0, show_help, 0, false, NULL, NULL},
     {"Help", "To the menus", "then arrows and Enter; Esc leaves them", ANG_KEY_F10, 0, to_menus, 0, false, NULL, NULL},
@@ -327,6 +397,8 @@ static void escape(ang_viewer *viewer) {
         viewer->opening = viewer->help = viewer->notes = viewer->browsing = false;
     } else if (ang_gui_navigating(viewer->gui)) {
         ang_gui_leave_widgets(viewer->gui);
+    } else if (viewer->cine.running) {
+        ang_playing_stop(viewer);
     } else if (viewer->loading.running) {
         ang_loading_stop(&viewer->loading);
     } else if (viewer->failure[0] && viewer->ready) {

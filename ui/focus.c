@@ -44,9 +44,7 @@ void ang_focus_cycle(ang_viewer *viewer, int by) {
 
 /* In the plane of the slice, by as much as another slice of those that change is away. */
 static void move_crosshair(ang_viewer *viewer, ang_orientation orientation, int right, int down) {
-    ang_rect rect = viewer->pane[orientation];
-    ang_slice_frame frame = ang_slice_frame_make(viewer->study.volume, orientation, &viewer->slice[orientation].view,
-                                                 viewer->crosshair, (int)rect.width, (int)rect.height);
+    ang_slice_frame frame = ang_slice_frame_of(viewer, orientation, viewer->pane[orientation]);
     ang_vec3 way = ang_vec3_add(ang_vec3_scale(frame.axes.right, right), ang_vec3_scale(frame.axes.down, down));
     double step = 0, most = 0;
     for (int i = 0; i < ANG_ORIENTATIONS; i++) {
@@ -64,12 +62,10 @@ static void pan(ang_viewer *viewer, int right, int down) {
         return;
     }
     ang_slice_view *view = &viewer->slice[pane].view;
-    ang_rect rect = viewer->pane[pane];
-    double mm = ang_slice_frame_make(viewer->study.volume, (ang_orientation)pane, view, viewer->crosshair,
-                                     (int)rect.width, (int)rect.height)
-                    .mm_per_pixel;
-    view->pan_mm[0] -= right * pixels * mm;
-    view->pan_mm[1] -= down * pixels * mm;
+    ang_slice_frame frame = ang_slice_frame_of(viewer, (ang_orientation)pane, viewer->pane[pane]);
+    view->pan_mm[0] -= right * pixels * frame.mm_per_pixel;
+    view->pan_mm[1] -= down * pixels * frame.mm_per_pixel;
+    ang_slice_keep_inside(view, viewer->study.volume, &frame.axes);
 }
 
 bool ang_focus_arrow(ang_viewer *viewer, int key, unsigned modifiers) {
@@ -98,7 +94,6 @@ void ang_focus_zoom(ang_viewer *viewer, double factor) {
     }
     ang_rect rect = viewer->pane[pane];
     ang_slice_view *view = &viewer->slice[pane].view;
-    ang_slice_frame frame = ang_slice_frame_make(viewer->study.volume, (ang_orientation)pane, view, viewer->crosshair,
-                                                 (int)rect.width, (int)rect.height);
+    ang_slice_frame frame = ang_slice_frame_of(viewer, (ang_orientation)pane, rect);
     ang_slice_zoom(view, &frame, rect.width / 2, rect.height / 2, factor);
 }

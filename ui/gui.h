@@ -139,7 +139,8 @@ void ang_gui_canvas(ang_gui *gui, const char *name, double width, double height,
 void ang_gui_canvas_arrows(ang_gui *gui);
 
 /* Drawing, in pixels of the window, onto the area or pane that is open. `small`: the smaller of the two sizes of
- * letters. */
+ * letters. A level or upright line of an odd thickness is sharp through the middle of pixels (whole and a half), of an
+ * even one between them. */
 void ang_gui_line(ang_gui *gui, double x0, double y0, double x1, double y1, ang_ink ink, double thickness);
 void ang_gui_frame(ang_gui *gui, ang_rect rect, ang_ink ink);
 void ang_gui_fill(ang_gui *gui, ang_rect rect, ang_ink ink);

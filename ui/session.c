@@ -1,5 +1,5 @@
 /* Sessions: from what is shown, and back to it; state files through the host. */
-#include "ui/viewer_private.h"
+#include "ui/panes/crosshair.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,6 +11,8 @@ const char *ang_volume_method_choice(const ang_viewer *viewer) {
 
 static void restore(ang_viewer *viewer, const ang_session *session) {
     viewer->document = session->document;
+    viewer->voxels_shown = session->voxels_shown;
+    ang_planes_take(viewer);
     for (int i = 0; i < ANG_ORIENTATIONS; i++) viewer->slice[i].view = session->slice[i];
     if (isfinite(session->crosshair.x)) ang_viewer_point_at(viewer, session->crosshair);
     viewer->maximised = session->maximised;

@@ -1,5 +1,6 @@
 /* The series that is shown: from opening it to letting it go. */
-#include "ui/viewer_private.h"
+#include "ui/panes/crosshair.h"
+#include "ui/panes/playing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -24,8 +25,7 @@ double ang_viewer_hu_at(const ang_viewer *viewer, ang_vec3 mm) {
 }
 
 void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm) {
-    for (int i = 0; i < ANG_ORIENTATIONS; i++)
-        mm = ang_slice_place(&viewer->range[i], mm, ang_slice_index(&viewer->range[i], mm));
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) mm = ang_slice_move(&viewer->range[i], mm, 0);
     viewer->crosshair = mm;
 }
 
@@ -60,6 +60,7 @@ static const ang_preset *first_preset(ang_viewer *viewer, const char *wanted, an
 
 void ang_study_close(ang_viewer *viewer) {
     if (!viewer->ready) return;
+    ang_playing_stop(viewer);
     ang_thumbnails_clear(viewer);
     ang_volume_picture_clear(viewer);
     for (int i = 0; i < ANG_ORIENTATIONS; i++) ang_slice_picture_clear(viewer, &viewer->slice[i]);
@@ -83,6 +84,8 @@ static void show_study(ang_viewer *viewer, const ang_study *study, const char *w
     document->view = ang_viewer_first_view;
     document->iso_hu = 300;
     ang_volume_box(study->volume, &document->crop_lower, &document->crop_upper);
+    document->turn = ang_turn_none;
+    ang_planes_take(viewer);
     ang_transfer_editor_start(viewer);
     ang_error err = {0};
     const ang_preset *preset = first_preset(viewer, wanted_preset, &err);
@@ -93,10 +96,7 @@ static void show_study(ang_viewer *viewer, const ang_study *study, const char *w
     }
     ang_viewer_choose_preset(viewer, preset);
     ang_viewer_file_window(viewer, &document->window_centre, &document->window_width);
-    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
-        viewer->range[i] = ang_slice_range_of(study->volume, (ang_orientation)i);
-        viewer->slice[i].view = ang_slice_view_default;
-    }
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) viewer->slice[i].view = ang_slice_view_default;
     ang_viewer_point_at(viewer, ang_volume_centre(study->volume));
     ang_session_apply(viewer);
     viewer->cutting.pivot = viewer->crosshair;

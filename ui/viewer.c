@@ -1,4 +1,5 @@
-#include "ui/viewer_private.h"
+#include "ui/panes/identity.h"
+#include "ui/panes/playing.h"
 
 #include "core/base/clock.h"
 #include "core/base/memory.h"
@@ -14,7 +15,7 @@ static const double message_seconds = 6;
 enum { settling_frames = 2 };
 
 const char *ang_tool_name(ang_tool tool) {
-    static const char *const names[ANG_TOOLS] = {"window", "crosshair", "pan", "crop"};
+    static const char *const names[ANG_TOOLS] = {"window", "crosshair", "scroll", "pan", "crop"};
     return names[tool];
 }
 
@@ -73,6 +74,7 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .path = viewer->path,
                                 .document = &viewer->document,
                                 .crosshair = viewer->crosshair,
+                                .cine = &viewer->cine,
                                 .hovered = viewer->hovered,
                                 .hovered_hu = viewer->hovered_hu,
                                 .maximised = viewer->maximised,
@@ -83,6 +85,8 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .tool = ang_tool_name(viewer->tool),
                                 .corner_text = viewer->corner_text,
                                 .crosshair_lines = viewer->crosshair_shown,
+                                .names_hidden = viewer->names_hidden,
+                                .voxels_shown = viewer->voxels_shown,
                                 .choice = ang_volume_method_choice(viewer),
                                 .method = volume->method ? volume->method->name : NULL,
                                 .size = {volume->size[0], volume->size[1]},
@@ -107,6 +111,8 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
         state->slice[i].count = viewer->range[i].count;
         state->slice[i].zoom = viewer->slice[i].view.zoom;
         memcpy(state->slice[i].pan_mm, viewer->slice[i].view.pan_mm, sizeof state->slice[i].pan_mm);
+        state->slice[i].axes = ang_slice_axes_of(&viewer->turn, (ang_orientation)i);
+        state->slice[i].mm_per_pixel = ang_vec3_length(viewer->slice[i].plane.step_x);
         state->pane[i] = viewer->pane[i];
     }
     state->pane[ANG_PANE_VOLUME] = viewer->pane[ANG_PANE_VOLUME];
@@ -128,14 +134,20 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
     viewer->typing = ang_gui_typing(viewer->gui);
     if (viewer->message[0] && viewer->input.time_seconds > viewer->message_until) viewer->message[0] = '\0';
     ang_actions_keys(viewer);
+    ang_playing_step(viewer);
     layout(viewer);
     ang_painter_clear(viewer->painter, viewer->input.width, viewer->input.height, background);
     ang_gui_end(viewer->gui);
+    bool left_out = ang_identity_left_out(viewer);
     if (viewer->save_window) ang_save_window(viewer);
-    ang_window_show(viewer->window);
+    if (left_out)
+        viewer->redraws = settling_frames; /* names do not blink: this frame is not shown */
+    else
+        ang_window_show(viewer->window);
     viewer->frames++;
     if (viewer->input.since_seconds > 0) viewer->latency_ms = ang_now_ms() - 1000 * viewer->input.since_seconds;
-    bool changing = ang_gui_holding(viewer->gui) || ang_gui_adjusting(viewer->gui) || viewer->typing;
+    bool changing =
+        ang_playing_volume(viewer) || ang_gui_holding(viewer->gui) || ang_gui_adjusting(viewer->gui) || viewer->typing;
     if (viewer->ready && !changing) ang_history_note(&viewer->history, &viewer->document, viewer->input.time_seconds);
     if (viewer->save_wanted && viewer->ready) ang_save_pane(viewer);
     return ang_painter_check(viewer->painter, err);
@@ -150,6 +162,10 @@ static void rest(ang_viewer *viewer) {
     }
     tell_host(viewer);
     if (!ang_gui_holding(viewer->gui)) ang_settings_remember(viewer, false);
+    if (viewer->cine.running) { /* what is coarse stays so meanwhile */
+        ang_window_wait(viewer->window, ang_playing_next_in(viewer));
+        return;
+    }
     double seconds = INFINITY;
     bool shown = viewer->ready && viewer->pane[ANG_PANE_VOLUME].width >= 1;
     if (shown) seconds = ang_volume_refine_in(viewer);
@@ -199,6 +215,7 @@ bool ang_viewer_run(const ang_viewer_host *host, const ang_viewer_options *optio
     viewer->maximised = viewer->point = -1;
     viewer->gesture.pane = -1;
     viewer->hovered = ANG_PANES;
+    viewer->cine = ang_cine_default;
     int width = options->width > 0 ? options->width : viewer->remembered.width;
     int height = options->height > 0 ? options->height : viewer->remembered.height;
     viewer->window = ang_window_create("Angioscope", width, height, err);

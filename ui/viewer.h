@@ -12,6 +12,7 @@
 #include "core/volume/volume.h"
 #include "ui/gui.h"
 #include "ui/settings.h"
+#include "ui/state/cine.h"
 #include "ui/state/document.h"
 #include "ui/state/session.h"
 #include "ui/state/slice_geometry.h"
@@ -19,12 +20,13 @@
 /* What has been loaded. Owned by the host until `release`. */
 typedef struct ang_study {
     ang_volume *volume;
-    bool hounsfield;                    /* values are HU; else plain numbers */
-    double window_centre, window_width; /* the file's; NaN where it has none */
-    char label[160];                    /* shown on the panes: modality, series */
-    ang_notes notes;                    /* warnings and assumptions, a sentence each */
-    int warnings;                       /* how many of the notes, from the first, are warnings */
-    void *handle;                       /* the host's */
+    bool hounsfield;                     /* values are HU; else plain numbers */
+    double window_centre, window_width;  /* the file's; NaN where it has none */
+    char label[64];                      /* shown on the panes: modality, series */
+    char description[260], patient[260]; /* the same; may identify the patient; empty: not known */
+    ang_notes notes;                     /* warnings and assumptions, a sentence each */
+    int warnings;                        /* how many of the notes, from the first, are warnings */
+    void *handle;                        /* the host's */
 } ang_study;
 
 typedef enum ang_pane { ANG_PANE_AXIAL, ANG_PANE_CORONAL, ANG_PANE_SAGITTAL, ANG_PANE_VOLUME, ANG_PANES } ang_pane;
@@ -39,7 +41,10 @@ typedef struct ang_viewer_state {
     struct {
         int index, count;
         double zoom, pan_mm[2];
+        ang_slice_axes axes;
+        double mm_per_pixel;
     } slice[ANG_ORIENTATIONS];
+    const ang_cine *cine;
     ang_pane hovered;               /* ANG_PANES: none */
     double hovered_hu;              /* NaN: none */
     int maximised;                  /* ang_pane; -1: none */
@@ -49,9 +54,10 @@ typedef struct ang_viewer_state {
     int point;                      /* chosen in the editor; -1: none */
     const char *tool;
     bool corner_text, crosshair_lines; /* are shown on the panes */
-    const char *choice;                /* of method: "auto" or a name */
-    const char *method;                /* that draws; NULL: none yet */
-    int size[2];                       /* of the 3D picture, pixels */
+    bool names_hidden, voxels_shown;
+    const char *choice; /* of method: "auto" or a name */
+    const char *method; /* that draws; NULL: none yet */
+    int size[2];        /* of the 3D picture, pixels */
     bool refined;
     double latency_ms;  /* from the last event to the window that showed what came of it */
     double frame_ms;    /* the last 3D picture's */
@@ -101,7 +107,8 @@ typedef struct ang_viewer_host {
     const ang_preset *const *presets;    /* NULL at the end; outlive the viewer */
     const char *font;                    /* TrueType file; NULL: none found */
     const char *version;
-    int threads; /* 0: all */
+    int threads;   /* 0: all */
+    bool keep_phi; /* what may identify the patient may stand in saved pictures of the window */
 } ang_viewer_host;
 
 typedef struct ang_viewer_options {

@@ -9,6 +9,7 @@
 #include "ui/loading.h"
 #include "ui/palette.h"
 #include "ui/panes/cutting.h"
+#include "ui/state/cine.h"
 #include "ui/viewer.h"
 
 /* Colours of the panes (3D Slicer's). */
@@ -16,7 +17,14 @@ ang_ink ang_pane_ink(ang_pane pane, unsigned alpha);
 
 enum { ANG_THUMBNAILS = 128 }; /* the most presets that are shown */
 
-typedef enum ang_tool { ANG_TOOL_WINDOW, ANG_TOOL_CROSSHAIR, ANG_TOOL_PAN, ANG_TOOL_CROP, ANG_TOOLS } ang_tool;
+typedef enum ang_tool {
+    ANG_TOOL_WINDOW,
+    ANG_TOOL_CROSSHAIR,
+    ANG_TOOL_SCROLL,
+    ANG_TOOL_PAN,
+    ANG_TOOL_CROP,
+    ANG_TOOLS
+} ang_tool;
 const char *ang_tool_name(ang_tool tool);
 
 /* A slice's picture, kept until what it shows changes. */
@@ -58,8 +66,11 @@ typedef struct ang_gesture {
     ang_document before;
     ang_vec3 crosshair;
     ang_slice_view view;
-    bool bends;       /* the preset is shifted and stretched */
-    bool strengthens; /* its opacity is */
+    bool bends;        /* the preset is shifted and stretched */
+    bool strengthens;  /* its opacity is */
+    bool turns;        /* the slice planes are turned */
+    double turned_deg; /* so far */
+    double slices;     /* scrolled so far */
     bool cancelled;
 } ang_gesture;
 
@@ -82,9 +93,12 @@ typedef struct ang_viewer {
     ang_document chosen;    /* as the preset was when it was chosen, to compare with */
     ang_preset *own_preset; /* of the host for this study; NULL: none */
     ang_vec3 crosshair;
+    ang_turn
+        turn; /* of the planes in `range` and of the slices' views: the document's when they were last brought up */
     ang_slice_range range[ANG_ORIENTATIONS];
     ang_slice_picture slice[ANG_ORIENTATIONS];
     ang_volume_picture volume;
+    ang_cine cine;
     ang_tool tool;
     int maximised; /* ang_pane, -1: none */
     ang_rect pane[ANG_PANES];
@@ -102,7 +116,8 @@ typedef struct ang_viewer {
 
     ang_paint_texture thumbnail[ANG_THUMBNAILS]; /* of the presets, in the panel's order */
     int thumbnails;                              /* made so far */
-    bool help, notes, opening, browsing, corner_text, crosshair_shown;
+    bool help, notes, opening, browsing, corner_text, crosshair_shown, names_hidden;
+    bool voxels_shown; /* slices without interpolation */
     char typed_path[1024];
     bool save_wanted; /* a picture of the pane, when refined */
     ang_pane save_pane;
@@ -159,6 +174,10 @@ void ang_save_pane(ang_viewer *viewer);
 void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect);
 void ang_slice_scroll(ang_viewer *viewer, ang_orientation orientation, int slices);
 void ang_slice_picture_clear(ang_viewer *viewer, ang_slice_picture *picture);
+/* Where a slice pane's pixels lie while it is at `rect`. */
+ang_slice_frame ang_slice_frame_of(const ang_viewer *viewer, ang_orientation orientation, ang_rect rect);
+/* 100: a pixel of the screen for each of the volume's smallest voxel spacing. */
+double ang_slice_zoom_percent(const ang_viewer *viewer, ang_pane pane);
 /* The slice as a picture to be written. */
 bool ang_slice_image(ang_viewer *viewer, ang_orientation orientation, ang_image *image, ang_error *err);
 

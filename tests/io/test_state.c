@@ -45,6 +45,9 @@ static ang_state everything(void) {
     state.crosshair = (ang_vec3){M_PI, -M_E, 1e-17};
     state.crop_lower = (ang_vec3){-0.5, 1 / 3.0, 2};
     state.crop_upper = (ang_vec3){0.5, 10 / 3.0, 7};
+    const double turn[9] = {0.6, 0.8, 0, -0.8, 0.6, 0, 0, 0, 1};
+    memcpy(state.planes_turn, turn, sizeof turn);
+    state.voxels_shown = true;
     for (int i = 0; i < ANG_STATE_SLICES; i++)
         state.slice[i] = (ang_state_slice){.zoom = 1 + i / 7.0, .pan_mm = {-i / 3.0, 5}};
     snprintf(state.maximised, sizeof state.maximised, "coronal");
@@ -80,6 +83,8 @@ static void all_of_it_comes_back(void **context) {
     assert_memory_equal(&read.crop_lower, &wrote.crop_lower, sizeof read.crop_lower);
     assert_memory_equal(&read.crop_upper, &wrote.crop_upper, sizeof read.crop_upper);
     assert_memory_equal(read.slice, wrote.slice, sizeof read.slice);
+    assert_memory_equal(read.planes_turn, wrote.planes_turn, sizeof read.planes_turn);
+    assert_true(read.voxels_shown);
     assert_int_equal(read.slab, ANG_SLAB_MINIP);
     assert_string_equal(read.maximised, "coronal");
     assert_string_equal(read.tool, "pan");

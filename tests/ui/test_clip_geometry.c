@@ -90,7 +90,8 @@ static void a_slice_is_cut_in_a_line(void **state) {
     (void)state;
     ang_volume *volume = cube();
     ang_slice_view view = ang_slice_view_default;
-    ang_slice_frame frame = ang_slice_frame_make(volume, ANG_AXIAL, &view, (ang_vec3){0, 0, 3}, 600, 400);
+    ang_slice_frame frame =
+        ang_slice_frame_make(volume, &ang_turn_none, ANG_AXIAL, &view, (ang_vec3){0, 0, 3}, 600, 400);
     double ends[4]; /* 10 pixels a mm, the middle at (300, 200) */
     ang_clip_plane plane = ang_clip_plane_through((ang_vec3){5, 0, 0}, (ang_vec3){1, 0, 0});
     assert_true(ang_clip_line(&plane, &frame, ends)); /* the right is cut away: the way goes down */

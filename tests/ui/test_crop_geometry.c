@@ -226,7 +226,8 @@ static void sides_and_corners_are_found_in_slices(void **state) {
     (void)state;
     ang_volume *volume = cube();
     ang_slice_view view = ang_slice_view_default;
-    ang_slice_frame frame = ang_slice_frame_make(volume, ANG_AXIAL, &view, (ang_vec3){0, 0, 0}, 400, 400);
+    ang_slice_frame frame =
+        ang_slice_frame_make(volume, &ang_turn_none, ANG_AXIAL, &view, (ang_vec3){0, 0, 0}, 400, 400);
     ang_pane_map map = ang_pane_map_of_slice(&frame); /* 10 pixels a mm */
     ang_crop_box box = {{10, 5, 1}, {30, 15, 7}};
     ang_crop_side sides[ANG_CROP_FACES];

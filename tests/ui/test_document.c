@@ -128,6 +128,7 @@ static void renderings_are_told_apart(void **state) {
     other.slab_mm = 3;
     other.iso_hu = 5;
     other.edited = true;
+    other.turn = ang_turn_none;
     assert_true(ang_document_same_rendering(&document, &other));
     document.mode = other.mode = ANG_MODE_MIP;
     assert_false(ang_document_same_rendering(&document, &other));

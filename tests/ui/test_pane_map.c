@@ -61,8 +61,8 @@ static void slices_are_maps_too(void **state) {
     ang_volume *volume = body();
     ang_slice_view view = {.zoom = 1.3, .pan_mm = {4, -9}};
     for (int i = 0; i < ANG_ORIENTATIONS; i++) {
-        ang_slice_frame frame =
-            ang_slice_frame_make(volume, (ang_orientation)i, &view, (ang_vec3){3, -50, 320}, WIDTH, HEIGHT);
+        ang_slice_frame frame = ang_slice_frame_make(volume, &ang_turn_none, (ang_orientation)i, &view,
+                                                     (ang_vec3){3, -50, 320}, WIDTH, HEIGHT);
         ang_pane_map map = ang_pane_map_of_slice(&frame);
         double x, y;
         assert_true(ang_pane_map_point(&map, ang_slice_at(&frame, 123, 45), &x, &y));

@@ -1,5 +1,5 @@
 /* The panel at the side: presets, rendering, slices. */
-#include "ui/viewer_private.h"
+#include "ui/panes/identity.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -101,7 +101,8 @@ static void series(ang_viewer *viewer) {
     const ang_study *study = &viewer->study;
     const int *dims = study->volume->dims;
     ang_gui_heading(gui, "SERIES");
-    ang_gui_text(gui, "%s", study->label);
+    char title[340];
+    ang_gui_text(gui, "%s", ang_identity_series(viewer, title));
     ang_gui_text_dim(gui, "%d x %d x %d voxels", dims[0], dims[1], dims[2]);
     ang_gui_text_dim(gui, "%.3g x %.3g x %.3g mm", ang_volume_spacing(study->volume, 0),
                      ang_volume_spacing(study->volume, 1), ang_volume_spacing(study->volume, 2));

@@ -133,9 +133,10 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect) {
         cell(viewer, &x, y, 72, false, text);
         snprintf(text, sizeof text, "C %.0f  W %.0f", document->window_centre, document->window_width);
         cell(viewer, &x, y, 110, true, text);
-        double zoom =
-            viewer->hovered < ANG_PANE_VOLUME ? viewer->slice[viewer->hovered].view.zoom : document->view.zoom;
-        snprintf(text, sizeof text, "zoom %.2f", zoom);
+        if (hovering)
+            snprintf(text, sizeof text, "zoom %.0f %%", ang_slice_zoom_percent(viewer, viewer->hovered));
+        else
+            snprintf(text, sizeof text, "zoom %.2f", document->view.zoom);
         cell(viewer, &x, y, 76, true, text);
         snprintf(text, sizeof text, "tool: %s", ang_tool_name(viewer->tool));
         cell(viewer, &x, y, 110, true, text);

@@ -1,7 +1,9 @@
 /* A pane with a slice: its picture, and what the hands do on it. */
 #include "core/base/memory.h"
 #include "core/scene/annotation.h"
-#include "ui/viewer_private.h"
+#include "ui/panes/crosshair.h"
+#include "ui/panes/identity.h"
+#include "ui/panes/playing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -33,8 +35,8 @@ static bool same_place(ang_vec3 a, ang_vec3 b) { return ang_vec3_length(ang_vec3
 
 static bool same_plane(const ang_reslice_plane *a, const ang_reslice_plane *b) {
     bool same_slab = a->slab == b->slab && a->thickness_mm >= b->thickness_mm && a->thickness_mm <= b->thickness_mm;
-    return a->width == b->width && a->height == b->height && same_slab && same_place(a->origin, b->origin) &&
-           same_place(a->step_x, b->step_x) && same_place(a->step_y, b->step_y);
+    return a->width == b->width && a->height == b->height && a->nearest == b->nearest && same_slab &&
+           same_place(a->origin, b->origin) && same_place(a->step_x, b->step_x) && same_place(a->step_y, b->step_y);
 }
 
 /* Brings values, greys and texture up to date, each only where it has to be. */
@@ -80,10 +82,19 @@ bool ang_slice_image(ang_viewer *viewer, ang_orientation orientation, ang_image 
     return true;
 }
 
+ang_slice_frame ang_slice_frame_of(const ang_viewer *viewer, ang_orientation orientation, ang_rect rect) {
+    return ang_slice_frame_make(viewer->study.volume, &viewer->turn, orientation, &viewer->slice[orientation].view,
+                                viewer->crosshair, (int)rect.width, (int)rect.height);
+}
+
+double ang_slice_zoom_percent(const ang_viewer *viewer, ang_pane pane) {
+    double pixel = ang_vec3_length(viewer->slice[pane].plane.step_x);
+    return pixel > 0 ? 100 * ang_volume_smallest_spacing(viewer->study.volume) / pixel : 0;
+}
+
 void ang_slice_scroll(ang_viewer *viewer, ang_orientation orientation, int slices) {
-    const ang_slice_range *range = &viewer->range[orientation];
-    int index = ang_slice_index(range, viewer->crosshair);
-    viewer->crosshair = ang_slice_place(range, viewer->crosshair, index + slices);
+    ang_playing_stop(viewer);
+    viewer->crosshair = ang_slice_move(&viewer->range[orientation], viewer->crosshair, slices);
 }
 
 /* To the right widens the window, up brightens; Shift: ten times finer. */
@@ -97,19 +108,37 @@ static void drag_window(ang_viewer *viewer, const ang_canvas *canvas) {
     document->window_centre += canvas->dy * speed;
 }
 
+/* Up goes on: the pane's height through all slices, or slower where they are few; Shift: ten times finer. */
+static void drag_slices(ang_viewer *viewer, ang_orientation orientation, const ang_canvas *canvas, int height) {
+    ang_gesture *gesture = &viewer->gesture;
+    const ang_slice_range *range = &viewer->range[orientation];
+    double pixels = fmin((double)height / range->count, 8 * viewer->input.scale);
+    if (canvas->modifiers & ANG_MOD_SHIFT) pixels *= 10;
+    gesture->slices -= canvas->dy / pixels;
+    ang_playing_stop(viewer);
+    viewer->crosshair = ang_slice_move(range, gesture->crosshair, (int)round(gesture->slices));
+}
+
 static void drag(ang_viewer *viewer, ang_orientation orientation, const ang_canvas *canvas,
                  const ang_slice_frame *frame) {
     ang_slice_view *view = &viewer->slice[orientation].view;
+    const ang_volume *volume = viewer->study.volume;
     bool panning =
         canvas->held == ANG_BUTTON_MIDDLE ||
         (canvas->held == ANG_BUTTON_LEFT && (viewer->tool == ANG_TOOL_PAN || viewer->input.key[ANG_KEY_SPACE]));
     if (panning) {
         view->pan_mm[0] -= canvas->dx * frame->mm_per_pixel;
         view->pan_mm[1] -= canvas->dy * frame->mm_per_pixel;
+        ang_slice_keep_inside(view, volume, &frame->axes);
     } else if (canvas->held == ANG_BUTTON_RIGHT) {
         ang_slice_zoom(view, frame, canvas->start_x, canvas->start_y, exp(-canvas->dy / (150 * viewer->input.scale)));
+        ang_slice_keep_inside(view, volume, &frame->axes);
+    } else if (viewer->gesture.turns) {
+        ang_crosshair_turn(viewer, (ang_pane)orientation, frame, canvas);
     } else if (viewer->tool == ANG_TOOL_CROSSHAIR) {
         ang_viewer_point_at(viewer, ang_slice_at(frame, canvas->x, canvas->y));
+    } else if (viewer->tool == ANG_TOOL_SCROLL) {
+        drag_slices(viewer, orientation, canvas, frame->height);
     } else if (viewer->tool == ANG_TOOL_WINDOW) {
         drag_window(viewer, canvas);
     }
@@ -123,7 +152,9 @@ static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, 
         *gesture = (ang_gesture){.pane = (int)pane,
                                  .before = viewer->document,
                                  .crosshair = viewer->crosshair,
-                                 .view = viewer->slice[orientation].view};
+                                 .view = viewer->slice[orientation].view,
+                                 .turns = canvas->held == ANG_BUTTON_LEFT && !viewer->input.key[ANG_KEY_SPACE] &&
+                                          ang_crosshair_handle_at(viewer, pane, frame, canvas->x, canvas->y)};
     if (canvas->double_clicked) {
         viewer->maximised = viewer->maximised == (int)pane ? -1 : (int)pane;
         gesture->cancelled = true;
@@ -135,32 +166,17 @@ static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, 
     bool cuts = gesture->pane == (int)pane && ang_cutting_hands(viewer, &cutting, canvas);
     if (ours && !cuts && canvas->held >= 0 && (canvas->dx != 0 || canvas->dy != 0 || canvas->pressed))
         drag(viewer, orientation, canvas, frame);
-    if (ours && !cuts && canvas->clicked && canvas->released == ANG_BUTTON_LEFT && viewer->tool != ANG_TOOL_PAN)
+    bool points = canvas->clicked && canvas->released == ANG_BUTTON_LEFT && viewer->tool != ANG_TOOL_PAN;
+    if (ours && !cuts && points && !gesture->turns)
         ang_viewer_point_at(viewer, ang_slice_at(frame, canvas->start_x, canvas->start_y));
     if (canvas->wheel == 0) return;
-    if (canvas->modifiers & ANG_MOD_CONTROL)
-        ang_slice_zoom(&viewer->slice[orientation].view, frame, canvas->x, canvas->y, pow(1.15, canvas->wheel));
-    else
+    ang_slice_view *view = &viewer->slice[orientation].view;
+    if (canvas->modifiers & ANG_MOD_CONTROL) {
+        ang_slice_zoom(view, frame, canvas->x, canvas->y, pow(1.15, canvas->wheel));
+        ang_slice_keep_inside(view, viewer->study.volume, &frame->axes);
+    } else {
         ang_slice_scroll(viewer, orientation, (int)(canvas->wheel > 0 ? ceil(canvas->wheel) : floor(canvas->wheel)));
-}
-
-/* Lines where the other two slices cut this one, open around the place itself. */
-static void draw_crosshair(ang_viewer *viewer, ang_pane pane, ang_rect rect, const ang_slice_frame *frame) {
-    static const ang_pane upright[] = {ANG_PANE_SAGITTAL, ANG_PANE_SAGITTAL, ANG_PANE_CORONAL};
-    static const ang_pane level[] = {ANG_PANE_CORONAL, ANG_PANE_AXIAL, ANG_PANE_AXIAL};
-    double x, y, gap = ang_gui_px(viewer->gui, 14), thick = fmax(ang_gui_px(viewer->gui, 1), 1);
-    ang_slice_locate(frame, viewer->crosshair, &x, &y);
-    x = rect.x + floor(x) + 0.5;
-    y = rect.y + floor(y) + 0.5;
-    /* The letters at the edges stay free. */
-    double edge = ang_gui_px(viewer->gui, 26);
-    double left = rect.x + edge, right = rect.x + rect.width - edge;
-    double top = rect.y + edge, bottom = rect.y + rect.height - edge;
-    ang_ink vertical = ang_pane_ink(upright[pane], 170), horizontal = ang_pane_ink(level[pane], 170);
-    if (y - gap > top) ang_gui_line(viewer->gui, x, top, x, fmin(y - gap, bottom), vertical, thick);
-    if (y + gap < bottom) ang_gui_line(viewer->gui, x, fmax(y + gap, top), x, bottom, vertical, thick);
-    if (x - gap > left) ang_gui_line(viewer->gui, left, y, fmin(x - gap, right), y, horizontal, thick);
-    if (x + gap < right) ang_gui_line(viewer->gui, fmax(x + gap, left), y, right, y, horizontal, thick);
+    }
 }
 
 static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
@@ -169,8 +185,10 @@ static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     const ang_slice_range *range = &viewer->range[pane];
     const char *unit = viewer->study.hounsfield ? " HU" : "";
     char text[200];
-    ang_pane_corner(viewer, rect, 0, 0, 0, names[pane]);
-    ang_pane_corner(viewer, rect, 1, 0, 0, viewer->study.label);
+    double lean = ang_slice_lean(&viewer->turn, (ang_orientation)pane);
+    snprintf(text, sizeof text, "%s, oblique %.1f\xc2\xb0", names[pane], lean);
+    ang_pane_corner(viewer, rect, 0, 0, 0, lean > 0 ? text : names[pane]);
+    ang_identity_write(viewer, rect);
     double along = ang_vec3_dot(viewer->crosshair, range->normal);
     ang_letters side = ang_letters_make(ang_vec3_scale(range->normal, along < 0 ? -1 : 1));
     snprintf(text, sizeof text, "%d / %d   %s %.1f mm", ang_slice_index(range, viewer->crosshair) + 1, range->count,
@@ -181,9 +199,11 @@ static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
         snprintf(text, sizeof text, "slab %.1f mm, %s", document->slab_mm, slabs[document->slab]);
         ang_pane_corner(viewer, rect, 0, 1, 1, text);
     }
+    ang_playing_write(viewer, pane, rect, document->slab_mm > 0 ? 2 : 1);
     snprintf(text, sizeof text, "C %.0f  W %.0f%s", document->window_centre, document->window_width, unit);
     ang_pane_corner(viewer, rect, 1, 1, 0, text);
-    snprintf(text, sizeof text, "zoom %.2f", viewer->slice[pane].view.zoom);
+    snprintf(text, sizeof text, "%szoom %.0f %%", viewer->voxels_shown ? "voxels  " : "",
+             ang_slice_zoom_percent(viewer, pane));
     ang_pane_corner(viewer, rect, 1, 1, 1, text);
 }
 
@@ -196,20 +216,23 @@ static void hover(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, c
     bool inside = picture->filled && x >= 0 && y >= 0 && x < picture->plane.width && y < picture->plane.height;
     /* What the pixel shows, the slab included. */
     viewer->hovered_hu = inside ? (double)picture->hu[(size_t)y * (size_t)picture->plane.width + (size_t)x] : NAN;
-    ang_gui_cursor(viewer->gui, ANG_CURSOR_CROSS);
+    bool turns =
+        canvas->held >= 0 ? viewer->gesture.turns : ang_crosshair_handle_at(viewer, pane, frame, canvas->x, canvas->y);
+    ang_gui_cursor(viewer->gui, turns ? ANG_CURSOR_HAND : ANG_CURSOR_CROSS);
 }
 
 void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     ang_orientation orientation = (ang_orientation)pane;
     ang_slice_picture *picture = &viewer->slice[orientation];
     ang_canvas canvas;
-    int width = (int)rect.width, height = (int)rect.height;
     ang_gui_pane_begin(viewer->gui, ang_orientation_name(orientation), rect, &canvas);
-    const ang_volume *volume = viewer->study.volume;
-    ang_slice_frame frame = ang_slice_frame_make(volume, orientation, &picture->view, viewer->crosshair, width, height);
+    ang_planes_follow(viewer);
+    ang_slice_frame frame = ang_slice_frame_of(viewer, orientation, rect);
     handle(viewer, pane, &canvas, &frame);
-    frame = ang_slice_frame_make(volume, orientation, &picture->view, viewer->crosshair, width, height);
+    ang_planes_follow(viewer);
+    frame = ang_slice_frame_of(viewer, orientation, rect);
     ang_reslice_plane plane = ang_slice_plane(&frame, viewer->document.slab_mm, viewer->document.slab);
+    plane.nearest = viewer->voxels_shown;
     ang_error err = {0};
     if (fill(viewer, picture, &plane, &err))
         ang_gui_picture(viewer->gui, &picture->texture, rect);
@@ -218,7 +241,7 @@ void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     hover(viewer, pane, &canvas, &frame);
     ang_cutting_pane cutting = {rect, ang_pane_map_of_slice(&frame), &frame};
     ang_cutting_draw(viewer, &cutting, &canvas);
-    if (viewer->crosshair_shown) draw_crosshair(viewer, pane, rect, &frame);
+    if (viewer->crosshair_shown) ang_crosshair_draw(viewer, pane, rect, &frame, &canvas);
     ang_pane_letters(viewer, rect, frame.axes.right, frame.axes.down);
     if (viewer->corner_text) {
         write_corners(viewer, pane, rect);

@@ -1,6 +1,7 @@
 /* The pane with the volume rendering, and what the hands do on it. */
 #include "core/scene/annotation.h"
-#include "ui/viewer_private.h"
+#include "ui/panes/identity.h"
+#include "ui/panes/playing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -105,7 +106,7 @@ static void write_corners(ang_viewer *viewer, ang_rect rect) {
     const char *unit = viewer->study.hounsfield ? " HU" : "";
     char text[200];
     ang_pane_corner(viewer, rect, 0, 0, 0, "Volume");
-    ang_pane_corner(viewer, rect, 1, 0, 0, viewer->study.label);
+    ang_identity_write(viewer, rect);
     bool bent = document->shift_hu != 0 || document->stretch < 1 || document->stretch > 1;
     ang_crop_box box = ang_crop_box_of(document);
     bool cropped = document->crop && !ang_crop_box_whole(&box, viewer->study.volume);
@@ -117,6 +118,7 @@ static void write_corners(ang_viewer *viewer, ang_rect rect) {
         snprintf(text, sizeof text, "shift %+.0f%s, stretch %.2f", document->shift_hu, unit, document->stretch);
         ang_pane_corner(viewer, rect, 0, 1, 1, text);
     }
+    ang_playing_write(viewer, ANG_PANE_VOLUME, rect, bent ? 2 : 1);
     if (document->mode == ANG_MODE_DVR)
         snprintf(text, sizeof text, "zoom %.2f", document->view.zoom);
     else if (document->mode == ANG_MODE_ISO)

@@ -172,7 +172,7 @@ typedef enum difference { SAME, SAME_BUT_ZOOM, OTHER } difference;
 static difference compare(const ang_document *a, const ang_document *b) {
     bool rest = same_transfer(a, b) && same_style(a, b) && same_window(a, b) && same_direction(&a->view, &b->view) &&
                 strcmp(a->preset, b->preset) == 0 && a->edited == b->edited && a->slab == b->slab &&
-                a->crop == b->crop && same_box(a, b) && same_plane(a, b) &&
+                a->crop == b->crop && same_box(a, b) && same_plane(a, b) && ang_turn_same(&a->turn, &b->turn) &&
                 same_numbers((double[]){a->iso_hu, a->slab_mm, a->shift_hu, a->stretch},
                              (double[]){b->iso_hu, b->slab_mm, b->shift_hu, b->stretch}, 4);
     return !rest ? OTHER : same_zoom(&a->view, &b->view) ? SAME : SAME_BUT_ZOOM;

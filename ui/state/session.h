@@ -13,6 +13,7 @@ typedef struct ang_session {
     char tool[16];                     /* "": as it is */
     char method[16];                   /* "auto" or a name; "": as it is */
     bool corner_text, crosshair_lines; /* shown on the panes */
+    bool voxels_shown;                 /* slices are not interpolated */
 } ang_session;
 
 #endif

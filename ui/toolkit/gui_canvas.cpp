@@ -81,7 +81,8 @@ static ImVec2 at(double x, double y) { return ImVec2((float)x, (float)y); }
 static ImDrawList *sheet() { return ImGui::GetWindowDrawList(); }
 
 void ang_gui_line(ang_gui *, double x0, double y0, double x1, double y1, ang_ink ink, double thickness) {
-    sheet()->AddLine(at(x0, y0), at(x1, y1), ink, (float)thickness);
+    /* It adds half a pixel itself. */
+    sheet()->AddLine(at(x0 - 0.5, y0 - 0.5), at(x1 - 0.5, y1 - 0.5), ink, (float)thickness);
 }
 void ang_gui_frame(ang_gui *, ang_rect r, ang_ink ink) {
     sheet()->AddRect(at(r.x, r.y), at(r.x + r.width, r.y + r.height), ink);
