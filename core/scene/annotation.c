@@ -55,8 +55,7 @@ static double scale_at_centre(const ang_scene *scene) {
     return scale > 0 && isfinite(scale) ? scale : NAN; /* a centre behind the eye has no scale */
 }
 
-/* Where the camera shows a point; false where that is beside or behind the eye. */
-static bool project(const ang_scene *scene, ang_vec3 at, double *x, double *y, double *depth_mm) {
+bool ang_annotation_place(const ang_scene *scene, ang_vec3 at, double *x, double *y, double *depth_mm) {
     const ang_camera *camera = &scene->camera;
     ang_vec3 from = ang_vec3_sub(at, camera->eye);
     double depth = ang_vec3_dot(from, camera->forward), half = camera->half_height;
@@ -96,7 +95,7 @@ ang_annotation ang_annotation_of_objects(const ang_scene *scene) {
     for (size_t i = 0; objects && i < objects->label_count && a.labels < ANG_ANNOTATION_LABELS; i++) {
         ang_annotation_label *label = &a.label[a.labels];
         bool below = objects->label[i].below;
-        if (!project(scene, objects->label[i].at, &label->x, &label->y, &depth[a.labels])) continue;
+        if (!ang_annotation_place(scene, objects->label[i].at, &label->x, &label->y, &depth[a.labels])) continue;
         if (below) label->y += 1.6 * letter;
         snprintf(label->text, sizeof label->text, "%s", objects->label[i].text);
         int other = hidden_by(&a, a.labels, letter);

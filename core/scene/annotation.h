@@ -39,6 +39,10 @@ ang_letters ang_letters_make(ang_vec3 direction);
 /* The greatest of 1, 2, 5 times a power of ten that is at most `limit` (> 0); 0 where `limit` is not positive. */
 double ang_round_length(double limit);
 
+/* Where the scene's picture shows a place (LPS mm), in pixels from its left top corner, and how far away it is along
+ * the line of sight, in mm. False where it lies beside or behind the eye. */
+bool ang_annotation_place(const ang_scene *scene, ang_vec3 at, double *x, double *y, double *depth_mm);
+
 /* What to write on the scene's picture. The bar is the longest round length within a fifth of the picture's width.
  * `preset_name` (NULL: none) is shown as given: a preset's own name, never a path. Pure, thread safe. */
 ang_annotation ang_annotation_make(const ang_scene *scene, const char *preset_name);
