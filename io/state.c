@@ -1,6 +1,7 @@
 #include "io/state.h"
 
 #include "io/json.h"
+#include "io/measures.h"
 #include "io/preset.h"
 #include "io/replace.h"
 
@@ -120,6 +121,7 @@ static void add_window(cJSON *root, const ang_state *state) {
     cJSON *slab = cJSON_AddObjectToObject(root, "slab");
     add_number(slab, "mm", state->slab_mm);
     cJSON_AddStringToObject(slab, "mode", ang_slab_name(state->slab));
+    if (state->measures.count > 0) cJSON_AddItemToObject(root, "measures", ang_measures_json(&state->measures));
     cJSON_AddBoolToObject(root, "preset_changed", state->preset_changed);
     add_number(root, "shift_hu", state->shift_hu);
     add_number(root, "stretch", state->stretch);

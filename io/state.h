@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/scene/scene.h"
 #include "core/transfer/preset.h"
+#include "core/volume/measures.h"
 #include "core/volume/reslice.h"
 
 #include <cjson/cJSON.h>
@@ -44,6 +45,7 @@ typedef struct ang_state {
     ang_vec3 crop_lower, crop_upper; /* the crop box, also while the picture is not cropped (it is by an option "clip"):
                                         voxel index; all NaN where open */
     ang_state_slice slice[ANG_STATE_SLICES];
+    ang_measures measures;
     double planes_turn[9]; /* where the slice planes' L, P and H directions have gone to: three unit vectors */
     bool voxels_shown;     /* slices are not interpolated */
     char maximised[16];    /* the pane that is large; "": none */
@@ -65,7 +67,7 @@ int ang_state_series(const ang_state *state);
 /* The state as a JSON object: {"angioscope_state": 1, "program", "input": {"path", "name", ...}, "preset": {...}, as in
  * preset.h, "render": {OPTION: VALUE, ...}, "window": {"centre", "width"}, "crosshair_mm", "planes_turn", "axial":
  * {"zoom", "pan_mm"},
- * ..., "slab": {"mm", "mode"}, ...}. Every number exact. What is open is left out. `file` is where it will be written:
+ * ..., "slab": {"mm", "mode"}, "measures": {...}, as in measures.h, ...}. Every number exact. What is open is left out. `file` is where it will be written:
  * a path of the data below its folder becomes relative to that, any other absolute; NULL: no path. With `window` false
  * without what is of the window. NULL with ANG_LIMIT. Free with cJSON_Delete. */
 cJSON *ang_state_json(const ang_state *state, const char *program_version, const char *file, bool window,

@@ -1,6 +1,7 @@
 /* Reading of states: strict, with errors that name file, line and field. */
 #include "io/image/image_io.h"
 #include "io/json.h"
+#include "io/measures.h"
 #include "io/preset.h"
 #include "io/state.h"
 
@@ -14,7 +15,7 @@ static const char *const state_fields[] = {
     "angioscope_state", "program",      "input",  "preset",       "render",   "window",          "axial",
     "coronal",          "sagittal",     "slab",   "crosshair_mm", "shift_hu", "preset_changed",  "stretch",
     "maximised",        "tool",         "method", "corner_text",  "live",     "crosshair_lines", "crop",
-    "planes_turn",      "voxels_shown", NULL};
+    "planes_turn",      "voxels_shown", "measures", NULL};
 static const char *const input_fields[] = {"path", "name", "raw_dims", "raw_type", "raw_spacing", NULL};
 static const char *const window_fields[] = {"centre", "width", NULL};
 static const char *const crop_fields[] = {"lower", "upper", NULL};
@@ -209,7 +210,7 @@ static bool read_window(reader *r) {
         !read_number(r, window, "window", "width", least_width, INFINITY, &state->window_width) ||
         !read_numbers(r, root, "", "crosshair_mm", 3, most_mm, at) ||
         !read_numbers(r, root, "", "planes_turn", 9, 1 + 1e-6, state->planes_turn) || !read_slices(r) ||
-        !read_slab(r) || !read_crop(r))
+        !read_slab(r) || !read_crop(r) || !ang_measures_read(&r->json, &state->measures, r->err))
         return false;
     state->crosshair = (ang_vec3){at[0], at[1], at[2]};
     return read_flag(r, "preset_changed", &state->preset_changed) &&

@@ -54,6 +54,16 @@ static ang_state everything(void) {
     snprintf(state.tool, sizeof state.tool, "pan");
     snprintf(state.method, sizeof state.method, "auto");
     state.corner_text = false;
+    state.measures.hidden = true;
+    ang_measurement length = {.kind = ANG_MEASURE_LENGTH, .point = {{0.1, -1e-7, 1.0 / 3}, {7, 8, 9}}};
+    ang_measurement region = {.kind = ANG_MEASURE_ELLIPSE,
+                              .point = {{1, 2, 3}, {4, 5, 6}},
+                              .right = {cos(0.3), sin(0.3), 0},
+                              .down = {-sin(0.3), cos(0.3), 0},
+                              .label_placed = true,
+                              .label_mm = {-1.0 / 7, 2}};
+    ang_measures_add(&state.measures, &length);
+    ang_measures_add(&state.measures, &region);
     assert_true(ang_state_add_option(&state, "view", "1,2,3", NULL) && ang_state_add_option(&state, "axes", "", NULL));
     return state;
 }
@@ -86,6 +96,8 @@ static void all_of_it_comes_back(void **context) {
     assert_memory_equal(read.planes_turn, wrote.planes_turn, sizeof read.planes_turn);
     assert_true(read.voxels_shown);
     assert_int_equal(read.slab, ANG_SLAB_MINIP);
+    assert_true(ang_measures_same(&read.measures, &wrote.measures));
+    assert_int_equal(read.measures.count, 2);
     assert_string_equal(read.maximised, "coronal");
     assert_string_equal(read.tool, "pan");
     assert_string_equal(read.method, "auto");
@@ -197,6 +209,15 @@ static void broken_ones_are_refused(void **context) {
         {HEAD "\"crop\": {\"lower\": [1, 2]}}", "crop must have lower and upper"},
         {HEAD "\"crop\": {\"lower\": [1, 2], \"upper\": [1, 2, 3]}}", "crop.lower must be 3 numbers"},
         {HEAD "\"input\": {\"path\": 3}}", "input.path must be a text"},
+        {HEAD "\"measures\": []}", "measures must be an object"},
+        {HEAD "\"measures\": {\"list\": [{\"kind\": \"area\"}]}}", "measures.list[0].kind is \"area\""},
+        {HEAD "\"measures\": {\"list\": [{\"kind\": \"length\", \"points_mm\": [[1, 2, 3]]}]}}", "must be 2 points"},
+        {HEAD "\"measures\": {\"list\": [{\"kind\": \"length\",\n\"points_mm\": [[1, 2, 3], [1, 2, true]]}]}}",
+         "a.json:4: measures.list[0].points_mm[1][2]"},
+        {HEAD "\"measures\": {\"list\": [{\"kind\": \"ellipse\", \"points_mm\": [[1, 2, 3], [4, 5, 6]], \"right\": [1, "
+              "0, 0], "
+              "\"down\": [1, 0, 0]}]}}",
+         "at right angles"},
         {HEAD "\"corner_text\": 1}", "corner_text must be true or false"},
         {HEAD "\"render\": {\"view\": [1, 2]}}", "render.view must be a text, a number or true"},
         {HEAD "\"render\": {\"zoom\": 1, \"zoom\": 2}}", "render.zoom is given twice"},
