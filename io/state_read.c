@@ -11,11 +11,31 @@
 #include <string.h>
 #include <strings.h>
 
-static const char *const state_fields[] = {
-    "angioscope_state", "program",      "input",  "preset",       "render",   "window",          "axial",
-    "coronal",          "sagittal",     "slab",   "crosshair_mm", "shift_hu", "preset_changed",  "stretch",
-    "maximised",        "tool",         "method", "corner_text",  "live",     "crosshair_lines", "crop",
-    "planes_turn",      "voxels_shown", "measures", NULL};
+static const char *const state_fields[] = {"angioscope_state",
+                                           "program",
+                                           "input",
+                                           "preset",
+                                           "render",
+                                           "window",
+                                           "axial",
+                                           "coronal",
+                                           "sagittal",
+                                           "slab",
+                                           "crosshair_mm",
+                                           "shift_hu",
+                                           "preset_changed",
+                                           "stretch",
+                                           "maximised",
+                                           "tool",
+                                           "method",
+                                           "corner_text",
+                                           "live",
+                                           "crosshair_lines",
+                                           "crop",
+                                           "planes_turn",
+                                           "voxels_shown",
+                                           "measures",
+                                           NULL};
 static const char *const input_fields[] = {"path", "name", "raw_dims", "raw_type", "raw_spacing", NULL};
 static const char *const window_fields[] = {"centre", "width", NULL};
 static const char *const crop_fields[] = {"lower", "upper", NULL};
