@@ -199,7 +199,11 @@ void ang_gui_end(ang_gui *gui) {
 
 double ang_gui_px(const ang_gui *gui, double length) { return std::round(length * gui->scale); }
 bool ang_gui_typing(const ang_gui *) { return ImGui::GetIO().WantTextInput; }
-bool ang_gui_holding(const ang_gui *) { return ImGui::IsAnyItemActive() && ImGui::IsAnyMouseDown(); }
+bool ang_gui_holding(const ang_gui *gui) {
+    /* Escape takes the canvas that is held from ImGui, not from the hand. */
+    bool canvas = gui->held >= 0 && gui->input.button[gui->held];
+    return canvas || (ImGui::IsAnyItemActive() && ImGui::IsAnyMouseDown());
+}
 bool ang_gui_popup_open(const ang_gui *) {
     return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
