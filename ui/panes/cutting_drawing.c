@@ -65,6 +65,15 @@ static void draw_box(ang_viewer *viewer, const ang_cutting_pane *pane, unsigned 
             draw_corner(viewer, pane, ang_crop_corner(&box, volume, i), hot == ang_crop_corner_faces(i));
 }
 
+/* Cuts a side down to what shows of it; one that lies just beside the pane, by rounding, does. */
+static bool shows(const ang_cutting_pane *pane, double side[4]) {
+    const double beside = 1.5;
+    for (int i = 0; i < 4; i++) side[i] += beside;
+    bool found = ang_line_within(side, pane->rect.width + 2 * beside, pane->rect.height + 2 * beside);
+    for (int i = 0; i < 4; i++) side[i] -= beside;
+    return found;
+}
+
 /* In the middle of what shows of a side; on the pane's edge whole, and beside the letter that is there. */
 static void place_handle(const ang_viewer *viewer, const ang_cutting_pane *pane, const double side[4], double *x,
                          double *y) {
@@ -89,8 +98,8 @@ static void draw_outline(ang_viewer *viewer, const ang_cutting_pane *pane, bool 
     for (int i = 0; i < count; i++) draw_line(viewer, pane, sides[i].ends[0], sides[i].ends[1], ANG_INK_CROP, alpha);
     for (int i = 0; i < count && handles; i++) {
         if (!ang_pane_map_line(&pane->map, sides[i].ends[0], sides[i].ends[1], e)) continue;
-        if (!ang_line_within(e, pane->rect.width, pane->rect.height)) continue;
         double x, y;
+        if (!shows(pane, e)) continue;
         place_handle(viewer, pane, e, &x, &y);
         draw_square(viewer, pane, x, y, true, hot >> sides[i].face & 1);
     }
