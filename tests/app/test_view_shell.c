@@ -205,7 +205,7 @@ static void the_panel_takes_keys_from_tab_to_esc(void **state) {
     cJSON *shown = read_state();
     assert_string_not_equal(text_at(shown, "preset.name"), "cta-head");
     assert_close(number_at(shown, "axial.slice"), slice, 0);
-    assert_close(atof(text_at(shown, "render.7")), zoom, 1e-9);
+    assert_close(atof(text_at(shown, "render.zoom")), zoom, 1e-9);
     cJSON_Delete(shown);
     expect_text("shell.focus", "widgets");
     hands("key ctrl+z");
