@@ -148,22 +148,20 @@ static void show_help_line(ang_gui *gui, const help_line *line) {
 void ang_help(ang_viewer *viewer) {
     if (!viewer->help) return;
     ang_gui *gui = viewer->gui;
+    static const help_line none = {0};
+    enum { hand_count = sizeof hands / sizeof *hands };
     help_line lines[HELP_LINES];
-    int count = list_help(lines), rows = (count + 1) / 2;
-    /* The second column begins with a menu's name where one is near. */
-    for (int by = 0; by < 6; by++)
-        if (rows + by < count && lines[rows + by].menu) {
-            rows += by;
-            break;
-        }
+    /* Three columns of one height; the last one begins with what hands do. */
+    int count = list_help(lines), rows = (count + hand_count + 1 + 2) / 3, later = 2 * rows - hand_count - 1;
     ang_gui_message_begin(gui, "help");
     bool open = ang_gui_table_begin(gui, "keys", 6);
-    enum { hand_count = sizeof hands / sizeof *hands };
     for (int i = 0; i < rows && open; i++) {
-        static const help_line none = {0};
         show_help_line(gui, i < count ? &lines[i] : &none);
         show_help_line(gui, rows + i < count ? &lines[rows + i] : &none);
-        help_cells(gui, i < hand_count ? hands[i].hand : "", i < hand_count ? hands[i].does : "");
+        if (i < hand_count)
+            help_cells(gui, hands[i].hand, hands[i].does);
+        else
+            show_help_line(gui, i > hand_count && later + i < count ? &lines[later + i] : &none);
     }
     if (open) ang_gui_table_end(gui);
     ang_gui_gap(gui, ang_gui_px(gui, 8));
