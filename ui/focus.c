@@ -6,10 +6,6 @@
 
 static const double turn_degrees = 5, pan_pixels = 24; /* of a key; pixels at scale 1 */
 
-static bool dialog_open(const ang_viewer *viewer) {
-    return viewer->opening || viewer->help || viewer->notes || viewer->browsing || viewer->palette.open;
-}
-
 void ang_focus_follow(ang_viewer *viewer) {
     ang_focus *focus = &viewer->focus;
     const ang_input *input = &viewer->input;
@@ -22,7 +18,7 @@ void ang_focus_follow(ang_viewer *viewer) {
         focus->pane = (int)viewer->hovered;
         focus->by_key = false;
         bool widgets = ang_gui_navigating(viewer->gui) && !ang_gui_popup_open(viewer->gui);
-        if (widgets && !dialog_open(viewer) && !viewer->typing) ang_gui_leave_widgets(viewer->gui);
+        if (widgets && !ang_gui_dialog_open(viewer->gui) && !viewer->typing) ang_gui_leave_widgets(viewer->gui);
     }
     if (viewer->maximised >= 0) focus->pane = viewer->maximised;
 }

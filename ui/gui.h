@@ -44,6 +44,8 @@ void ang_gui_close_popups(ang_gui *gui);
 /* Whether widgets have the keyboard, as they do from Tab to Esc or a click, and while a menu is open: arrows, Enter and
  * Space are then theirs. */
 bool ang_gui_navigating(const ang_gui *gui);
+/* Whether a message was in front in the frame before. */
+bool ang_gui_dialog_open(const ang_gui *gui);
 /* Whether a widget's value is being changed by keys. */
 bool ang_gui_adjusting(const ang_gui *gui);
 /* Gives the keyboard to the widget that had it last or the first, with the next frame; to the bar of menus; to none. */

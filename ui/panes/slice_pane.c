@@ -191,15 +191,16 @@ static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     ang_identity_write(viewer, rect);
     double along = ang_vec3_dot(viewer->crosshair, range->normal);
     ang_letters side = ang_letters_make(ang_vec3_scale(range->normal, along < 0 ? -1 : 1));
-    snprintf(text, sizeof text, "%d / %d   %s %.1f mm", ang_slice_index(range, viewer->crosshair) + 1, range->count,
-             side.text, fabs(along));
+    snprintf(text, sizeof text, "%d / %d", ang_slice_index(range, viewer->crosshair) + 1, range->count);
+    ang_pane_corner(viewer, rect, 0, 1, 1, text);
+    snprintf(text, sizeof text, "%s %.1f mm", side.text, fabs(along));
     ang_pane_corner(viewer, rect, 0, 1, 0, text);
     if (document->slab_mm > 0) {
         static const char *const slabs[] = {"mean", "MIP", "MinIP"};
         snprintf(text, sizeof text, "slab %.1f mm, %s", document->slab_mm, slabs[document->slab]);
-        ang_pane_corner(viewer, rect, 0, 1, 1, text);
+        ang_pane_corner(viewer, rect, 0, 1, 2, text);
     }
-    ang_playing_write(viewer, pane, rect, document->slab_mm > 0 ? 2 : 1);
+    ang_playing_write(viewer, pane, rect, document->slab_mm > 0 ? 3 : 2);
     snprintf(text, sizeof text, "C %.0f  W %.0f%s", document->window_centre, document->window_width, unit);
     ang_pane_corner(viewer, rect, 1, 1, 0, text);
     snprintf(text, sizeof text, "%szoom %.0f %%", viewer->voxels_shown ? "voxels  " : "",

@@ -39,6 +39,7 @@ struct ang_gui {
     /* Who has the keyboard (gui_focus.cpp). */
     std::vector<ang_gui_stop> stops; /* in the order of the frame */
     ImGuiWindow *dialog;             /* in front; nullptr: none */
+    bool dialog_open;                /* there was one in the frame before */
     ImGuiID before;                  /* the widget that had the keyboard before the dialog; 0: none */
     ImGuiID arrows_of;               /* a canvas that uses arrows itself; 0: none */
     bool navigating;                 /* widgets have the keyboard */
