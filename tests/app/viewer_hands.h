@@ -178,7 +178,7 @@ static inline void middle(const char *pane, int *x, int *y) {
 static inline void go_to(const char *pane) {
     int x, y;
     middle(pane, &x, &y);
-    hands("mousemove %d %d", x, y);
+    hands("mousemove %d %d mousemove %d %d", x - 1, y, x, y); /* keys follow a pointer that moves */
     expect_text("hovered", pane);
 }
 
