@@ -196,10 +196,16 @@ static bool take_method(const ang_state *state, const char *file, ang_session *s
            ang_fail(err, ANG_USAGE, "%s: method is \"%s\", which there is none of", file, name);
 }
 
+/* To the last digit where it is a rotation as it stands: mending one again would change that. */
 static bool take_turn(const ang_state *state, const char *file, ang_turn *turn, ang_error *err) {
     const double *t = state->planes_turn;
     *turn = (ang_turn){{t[0], t[1], t[2]}, {t[3], t[4], t[5]}, {t[6], t[7], t[8]}};
-    return ang_turn_mend(turn) || ang_fail(err, ANG_USAGE, "%s: planes_turn is no rotation", file);
+    ang_turn mended = *turn;
+    if (!ang_turn_mend(&mended)) return ang_fail(err, ANG_USAGE, "%s: planes_turn is no rotation", file);
+    double off = ang_vec3_length(ang_vec3_sub(mended.x, turn->x)) + ang_vec3_length(ang_vec3_sub(mended.y, turn->y)) +
+                 ang_vec3_length(ang_vec3_sub(mended.z, turn->z));
+    if (off > 1e-12) *turn = mended;
+    return true;
 }
 
 bool ang_view_session_of(const ang_state *state, const char *file, const ang_study *study, ang_session *session,

@@ -9,12 +9,18 @@ const char *ang_volume_method_choice(const ang_viewer *viewer) {
     return viewer->volume.choice > 0 ? ang_methods()[viewer->volume.choice - 1]->name : "auto";
 }
 
+/* To the last digit where it is a place for it as it stands. */
+static void point_at(ang_viewer *viewer, ang_vec3 crosshair) {
+    ang_viewer_point_at(viewer, crosshair);
+    if (ang_vec3_length(ang_vec3_sub(viewer->crosshair, crosshair)) < 1e-9) viewer->crosshair = crosshair;
+}
+
 static void restore(ang_viewer *viewer, const ang_session *session) {
     viewer->document = session->document;
     viewer->voxels_shown = session->voxels_shown;
     ang_planes_take(viewer);
     for (int i = 0; i < ANG_ORIENTATIONS; i++) viewer->slice[i].view = session->slice[i];
-    if (isfinite(session->crosshair.x)) ang_viewer_point_at(viewer, session->crosshair);
+    if (isfinite(session->crosshair.x)) point_at(viewer, session->crosshair);
     viewer->maximised = session->maximised;
     viewer->corner_text = session->corner_text;
     viewer->crosshair_shown = session->crosshair_lines;

@@ -48,6 +48,7 @@ static void change_everything(void) {
     hands("keydown ctrl click 4 keyup ctrl");
     drag(2, 13, -7);
     drag(1, 31, -17);
+    hands("key i key --repeat 7 --delay 30 alt+Right"); /* voxels as they are; planes turned */
     go_to("coronal");
     hands("key bracketright key bracketright");
     hands("keydown ctrl click 4 click 4 keyup ctrl");
@@ -59,6 +60,8 @@ static void change_everything(void) {
     hands("keydown shift");
     drag(1, 9, 14);
     hands("keyup shift");
+    hands("key k"); /* a clip plane */
+    expect_number("clip_plane.offset_mm", 0, 200);
     hands("key o key t key shift+x key p");
     expect_text("tool", "pan");
     expect_text("render.projection", "parallel");
@@ -85,7 +88,9 @@ static void a_session_is_saved_and_restored(void **state) {
     /* One step of undo goes nowhere; "Reset" goes to the preset as it is saved. */
     cJSON *now = read_state();
     assert_true(cJSON_IsFalse(field(now, "can_undo")));
-    assert_true(cJSON_IsTrue(field(now, "preset_changed")));
+    assert_true(cJSON_IsTrue(field(now, "preset_changed")) && cJSON_IsTrue(field(now, "voxels_shown")));
+    assert_close(fabs(number_at(now, "axial.turned_deg")), 7, 1e-9);
+    assert_non_null(strchr(text_at(now, "render.clip-plane"), ','));
     cJSON_Delete(now);
 }
 
