@@ -46,6 +46,19 @@ static bool add_cutting(const ang_viewer_state *shown, ang_state *state, ang_err
            (!ang_clip_plane_given(clip) || add_option_numbers(state, "clip-plane", plane, 4, err));
 }
 
+/* The lengths that the volume rendering shows. */
+static bool add_marks(ang_state *state, const ang_measures *measures, ang_error *err) {
+    char text[ANG_MEASURES * 6 * 26];
+    int used = 0;
+    for (int i = 0; i < measures->count && !measures->hidden; i++) {
+        const ang_measurement *m = &measures->item[i];
+        for (int k = 0; k < 6 && m->kind == ANG_MEASURE_LENGTH; k++)
+            used += snprintf(text + used, sizeof text - (size_t)used, "%s%.17g", used > 0 ? "," : "",
+                             ang_vec3_at(m->point[k / 3], k % 3));
+    }
+    return used == 0 || ang_state_add_option(state, "measure", text, err);
+}
+
 static bool add_render_options(const ang_viewer_state *shown, ang_state *state, ang_error *err) {
     const ang_view *view = &shown->document->view;
     char size[32];
@@ -58,7 +71,7 @@ static bool add_render_options(const ang_viewer_state *shown, ang_state *state, 
            ang_state_add_option(state, "projection", ang_projection_name(view->projection), err) &&
            add_option_numbers(state, "fov", &view->fov_deg, 1, err) &&
            (!shown->method || ang_state_add_option(state, "method", shown->method, err)) &&
-           add_cutting(shown, state, err);
+           add_cutting(shown, state, err) && add_marks(state, &shown->document->measures, err);
 }
 
 char *ang_view_preset_print(const ang_document *document, ang_error *err) {
@@ -110,6 +123,7 @@ static void copy_window(const ang_viewer_state *shown, ang_state *state) {
     state->crosshair = shown->crosshair;
     state->crop_lower = document->crop_lower;
     state->crop_upper = document->crop_upper;
+    state->measures = document->measures;
     for (int i = 0; i < ANG_STATE_SLICES; i++) {
         state->slice[i].zoom = shown->slice[i].zoom;
         memcpy(state->slice[i].pan_mm, shown->slice[i].pan_mm, sizeof state->slice[i].pan_mm);
@@ -180,6 +194,22 @@ static bool take_picture(const ang_state *state, const char *file, const ang_stu
     return made;
 }
 
+/* What a state without measures has as marks of its picture: lengths. */
+static bool take_marks(const ang_state *state, ang_measures *measures, ang_error *err) {
+    const char *marks = ang_state_option_value(state, "measure");
+    double at[6 * ANG_MEASURES];
+    int count = 0;
+    *measures = state->measures;
+    if (!marks || measures->count > 0) return true;
+    if (!ang_app_parse_numbers("measure", marks, 6, 6 * ANG_MEASURES, at, &count, err)) return false;
+    for (int i = 0; i + 6 <= count; i += 6) {
+        ang_measurement m = {.kind = ANG_MEASURE_LENGTH,
+                             .point = {{at[i], at[i + 1], at[i + 2]}, {at[i + 3], at[i + 4], at[i + 5]}}};
+        ang_measures_add(measures, &m);
+    }
+    return true;
+}
+
 static bool take_maximised(const ang_state *state, const char *file, ang_session *session, ang_error *err) {
     session->maximised = -1;
     for (int i = 0; i < ANG_PANES; i++)
@@ -232,7 +262,8 @@ bool ang_view_session_of(const ang_state *state, const char *file, const ang_stu
     memcpy(session->tool, state->tool, sizeof session->tool);
     session->voxels_shown = state->voxels_shown;
     return take_picture(state, file, study, document, err) && take_turn(state, file, &document->turn, err) &&
-           take_maximised(state, file, session, err) && take_method(state, file, session, err);
+           take_marks(state, &document->measures, err) && take_maximised(state, file, session, err) &&
+           take_method(state, file, session, err);
 }
 
 static void add_slices(cJSON *live, const ang_viewer_state *shown) {
@@ -264,6 +295,29 @@ static void add_clip_plane(cJSON *live, const ang_clip_plane *clip) {
     ang_json_add_number(plane, "offset_mm", clip->offset_mm);
 }
 
+static cJSON *values_of(const ang_measurement *m, const ang_region_values *values) {
+    cJSON *object = cJSON_CreateObject();
+    ang_json_add_number(object, "value", ang_measurement_value(m));
+    cJSON_AddStringToObject(object, "unit", ang_measurement_unit(m->kind));
+    if (!ang_measure_is_region(m->kind)) return object;
+    ang_json_add_number(object, "mean_hu", values->mean);
+    ang_json_add_number(object, "sd_hu", values->sd);
+    ang_json_add_number(object, "least_hu", values->least);
+    ang_json_add_number(object, "most_hu", values->most);
+    cJSON_AddNumberToObject(object, "count", (double)values->count);
+    return object;
+}
+
+static void add_measures(cJSON *live, const ang_viewer_state *shown) {
+    const ang_measures *measures = &shown->document->measures;
+    cJSON *object = cJSON_AddObjectToObject(live, "measures");
+    cJSON *list = cJSON_AddArrayToObject(object, "values");
+    for (int i = 0; i < measures->count; i++)
+        cJSON_AddItemToArray(list, values_of(&measures->item[i], &shown->region_values[i]));
+    cJSON_AddNumberToObject(object, "count", measures->count);
+    cJSON_AddNumberToObject(object, "chosen", shown->measure);
+}
+
 static void add_live(cJSON *live, const ang_viewer_state *shown) {
     add_slices(live, shown);
     cJSON *cine = cJSON_AddObjectToObject(live, "cine");
@@ -286,6 +340,7 @@ static void add_live(cJSON *live, const ang_viewer_state *shown) {
     cJSON_AddBoolToObject(live, "can_undo", shown->undo);
     cJSON_AddBoolToObject(live, "can_redo", shown->redo);
     add_panes(live, shown);
+    add_measures(live, shown);
     ang_json_add_number(live, "hovered_hu", shown->hovered_hu);
 }
 

@@ -29,7 +29,12 @@ static void save_pane(ang_viewer *viewer, int argument) {
 
 static void save_window(ang_viewer *viewer, int argument) {
     (void)argument;
-    viewer->save_window = true;
+    ang_shot_ask(viewer, -1);
+}
+
+static void save_seen(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_shot_ask(viewer, viewer->focus.pane);
 }
 
 static void save_state(ang_viewer *viewer, int argument) {
@@ -130,7 +135,10 @@ static bool is_clipped(const ang_viewer *viewer, int argument) {
 }
 static bool has_clip_plane(const ang_viewer *viewer) { return viewer->ready && is_clipped(viewer, 0); }
 
-static void choose_tool(ang_viewer *viewer, int tool) { viewer->tool = (ang_tool)tool; }
+static void choose_tool(ang_viewer *viewer, int tool) {
+    ang_measuring_cancel(viewer);
+    viewer->tool = (ang_tool)tool;
+}
 static bool is_tool(const ang_viewer *viewer, int tool) { return viewer->tool == (ang_tool)tool; }
 
 static void maximise(ang_viewer *viewer, int argument) {
@@ -285,6 +293,8 @@ static const ang_action actions[] = {
     {"File", "Open...", "a folder or file; or drop it on the window", 'O', C, open_path, 0, false, NULL, NULL},
     {"File", "Save picture of the pane", "the one with the bright frame; refined, without writing on it", 'S', C,
      save_pane, 0, true, is_ready, NULL},
+    {"File", "Save pane as seen", "with letters, bar and measures", ANG_KEY_F12, 0, save_seen, 0, false, is_ready,
+     NULL},
     {"File", "Save picture of the window", NULL, 'S', C | S, save_window, 0, false, NULL, NULL},
     {"File", "Save preset", "the transfer function and modes as shown, a file for --preset", 'P', C, save_preset, 0,
      false, is_ready, NULL},
@@ -310,6 +320,13 @@ static const ang_action actions[] = {
      ang_clip_face_viewer, 0, true, is_ready, NULL},
     {"Tools", "Clip plane's other side", NULL, 'K', S, ang_clip_flip, 0, false, has_clip_plane, NULL},
     {"Tools", "Clip plane on", NULL, 'K', A, ang_clip_toggle, 0, false, is_ready, is_clipped},
+    {"Tools", "Measure", "drag or click in a slice; again: length, angle, ellipse, rectangle", 'M', 0,
+     ang_measuring_next, ANG_TOOL_MEASURE, false, is_ready, is_tool},
+    {"Tools", "Delete the chosen measure", NULL, ANG_KEY_DELETE, 0, ang_measures_delete_chosen, 0, true,
+     ang_measures_chosen, NULL},
+    {"Tools", "Delete all measures", NULL, 0, 0, ang_measures_clear, 0, false, ang_measures_any, NULL},
+    {"Tools", "Copy measures as text", "with tabs, for a spreadsheet", 'C', C, ang_measures_copy, 0, false,
+     ang_measures_any, NULL},
     {"Tools", "Crosshair to the centre", NULL, ANG_KEY_HOME, 0, centre_crosshair, 0, true, is_ready, NULL},
     {"View", "Reset view", "of the pane with the bright frame", 'R', 0, reset_view, 0, false, is_ready, NULL},
     {"View", "Reset all views", NULL, 'R', S, reset_view, 1, false, is_ready, NULL},
@@ -327,6 +344,7 @@ static const ang_action actions[] = {
     {"View", "Turn about the crosshair", "else about the volume's centre", 'C', S, toggle_turning, 0, false, is_ready,
      turns_about_crosshair},
     {"View", "Crosshair lines", NULL, 'X', S, toggle_crosshair, 0, true, is_ready, shows_crosshair},
+    {"View", "Measures", NULL, 'M', S, ang_measures_toggle, 0, false, ang_measures_any, ang_measures_shown},
     {"View", "Text on the panes", NULL, 'T', 0, toggle_text, 0, false, is_ready, shows_text},
     {"View", "Patient's name", "and the series' description; left out of saved pictures unless --keep-phi is given",
      ANG_KEY_F4, 0, toggle_names, 0, false, is_ready, shows_names},
@@ -391,6 +409,9 @@ static void escape(ang_viewer *viewer) {
         viewer->crosshair = gesture->crosshair;
         if (gesture->pane < ANG_PANE_VOLUME) viewer->slice[gesture->pane].view = gesture->view;
         gesture->cancelled = true;
+        ang_measuring_cancel(viewer);
+    } else if (ang_measuring_cancel(viewer)) {
+        return;
     } else if (viewer->palette.open) {
         viewer->palette.open = false;
     } else if (viewer->opening || viewer->help || viewer->notes || viewer->browsing) {

@@ -81,7 +81,7 @@ double ang_menus(ang_viewer *viewer) {
 static const struct {
     const char *hand, *does;
 } hands[] = {
-    {"Left drag", "slice: the tool; 3D: turn"},
+    {"Left drag", "slice: the tool (measure: or clicks); 3D: turn"},
     {"Click", "crosshair here; 3D: to what shows first"},
     {"Middle drag, Space + left drag", "pan"},
     {"Right drag, Ctrl + wheel", "zoom about the pointer"},

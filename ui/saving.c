@@ -28,25 +28,52 @@ static void save(ang_viewer *viewer, const char *what, const ang_image *image, b
     }
 }
 
-void ang_save_window(ang_viewer *viewer) {
+void ang_shot_ask(ang_viewer *viewer, int pane) {
+    viewer->shot = (ang_shot){.wanted = true, .pane = pane, .frame = viewer->frames};
+}
+
+static bool waits_for_volume(const ang_viewer *viewer) {
+    return viewer->shot.pane == ANG_PANE_VOLUME && viewer->ready && !viewer->volume.refined;
+}
+
+void ang_shot_pose(ang_viewer *viewer) {
+    ang_shot *shot = &viewer->shot;
+    shot->posed =
+        shot->wanted && viewer->frames > shot->frame && !ang_gui_popup_open(viewer->gui) && !waits_for_volume(viewer);
+}
+
+/* A part of what has been painted. */
+static bool read_part(ang_viewer *viewer, ang_rect rect, ang_image *image, ang_error *err) {
+    size_t width = (size_t)viewer->input.width, height = (size_t)viewer->input.height;
+    uint8_t *rgb = ang_alloc(width * height, 3, "the window's picture", err);
+    bool done = rgb && ang_image_create(image, (int)rect.width, (int)rect.height, err);
+    if (done) ang_painter_read(viewer->painter, rgb);
+    for (int y = 0; y < image->height && done; y++)
+        for (int x = 0; x < image->width; x++) {
+            const uint8_t *from = rgb + 3 * (((size_t)rect.y + (size_t)y) * width + (size_t)rect.x + (size_t)x);
+            float *to = image->rgba + 4 * ((size_t)y * (size_t)image->width + (size_t)x);
+            for (int c = 0; c < 3; c++) to[c] = (float)from[c] / 255;
+            to[3] = 1;
+        }
+    free(rgb);
+    return done;
+}
+
+void ang_shot_take(ang_viewer *viewer) {
+    static const char *const names[ANG_PANES] = {"axial-seen", "coronal-seen", "sagittal-seen", "volume-seen"};
+    ang_shot *shot = &viewer->shot;
+    if (!shot->posed || waits_for_volume(viewer)) return;
     ang_error err = {0};
     ang_image image = {0};
-    int width = viewer->input.width, height = viewer->input.height;
-    size_t pixels = (size_t)width * (size_t)height;
-    viewer->save_window = false;
-    uint8_t *rgb = ang_alloc(pixels, 3, "the window's picture", &err);
-    if (rgb && ang_image_create(&image, width, height, &err)) {
-        ang_painter_read(viewer->painter, rgb);
-        for (size_t i = 0; i < pixels; i++) {
-            for (size_t c = 0; c < 3; c++) image.rgba[4 * i + c] = (float)rgb[3 * i + c] / 255;
-            image.rgba[4 * i + 3] = 1;
-        }
-        save(viewer, "window", &image, false, &err);
-        ang_image_clear(&image);
-    } else {
+    ang_rect rect = {0, 0, viewer->input.width, viewer->input.height};
+    if (shot->pane >= 0) rect = viewer->pane[shot->pane];
+    if (rect.width >= 1 && read_part(viewer, rect, &image, &err))
+        save(viewer, shot->pane < 0 ? "window" : names[shot->pane], &image, false, &err);
+    else if (rect.width >= 1)
         ang_viewer_say(viewer, true, "%s", err.message);
-    }
-    free(rgb);
+    ang_image_clear(&image);
+    *shot = (ang_shot){0};
+    viewer->redraws = 2; /* with all that was left out */
 }
 
 /* The 3D pane's picture only once it is refined. */

@@ -87,6 +87,7 @@ static void show_study(ang_viewer *viewer, const ang_study *study, const char *w
     document->turn = ang_turn_none;
     ang_planes_take(viewer);
     ang_transfer_editor_start(viewer);
+    ang_measuring_start(viewer);
     ang_error err = {0};
     const ang_preset *preset = first_preset(viewer, wanted_preset, &err);
     if (!preset) {

@@ -15,7 +15,7 @@ static const double message_seconds = 6;
 enum { settling_frames = 2 };
 
 const char *ang_tool_name(ang_tool tool) {
-    static const char *const names[ANG_TOOLS] = {"window", "crosshair", "scroll", "pan", "crop"};
+    static const char *const names[ANG_TOOLS] = {"window", "crosshair", "scroll", "pan", "crop", "measure"};
     return names[tool];
 }
 
@@ -82,6 +82,8 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .editor_low = viewer->editor_low,
                                 .editor_high = viewer->editor_high,
                                 .point = viewer->point,
+                                .measure = viewer->ready ? ang_measuring_chosen(viewer) : -1,
+                                .region_values = viewer->measuring.values,
                                 .tool = ang_tool_name(viewer->tool),
                                 .corner_text = viewer->corner_text,
                                 .crosshair_lines = viewer->crosshair_shown,
@@ -121,6 +123,7 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
 static void tell_host(ang_viewer *viewer) {
     ang_viewer_state state;
     if (!viewer->host->shown) return;
+    if (viewer->ready) ang_measuring_values(viewer);
     ang_viewer_describe(viewer, &state);
     viewer->host->shown(viewer->host->context, &state);
 }
@@ -135,11 +138,12 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
     if (viewer->message[0] && viewer->input.time_seconds > viewer->message_until) viewer->message[0] = '\0';
     ang_actions_keys(viewer);
     ang_playing_step(viewer);
+    ang_shot_pose(viewer);
     layout(viewer);
     ang_painter_clear(viewer->painter, viewer->input.width, viewer->input.height, background);
     ang_gui_end(viewer->gui);
     bool left_out = ang_identity_left_out(viewer);
-    if (viewer->save_window) ang_save_window(viewer);
+    ang_shot_take(viewer);
     if (left_out)
         viewer->redraws = settling_frames; /* names do not blink: this frame is not shown */
     else
@@ -214,6 +218,7 @@ bool ang_viewer_run(const ang_viewer_host *host, const ang_viewer_options *optio
     ang_settings_take(viewer);
     viewer->maximised = viewer->point = -1;
     viewer->gesture.pane = -1;
+    ang_measuring_start(viewer);
     viewer->hovered = ANG_PANES;
     viewer->cine = ang_cine_default;
     int width = options->width > 0 ? options->width : viewer->remembered.width;

@@ -45,13 +45,15 @@ typedef struct ang_viewer_state {
         double mm_per_pixel;
     } slice[ANG_ORIENTATIONS];
     const ang_cine *cine;
-    ang_pane hovered;               /* ANG_PANES: none */
-    double hovered_hu;              /* NaN: none */
-    int maximised;                  /* ang_pane; -1: none */
-    ang_rect pane[ANG_PANES];       /* in the window; of no size: not shown */
-    ang_rect editor;                /* the transfer function's plot, in the window */
-    double editor_low, editor_high; /* HU at its sides */
-    int point;                      /* chosen in the editor; -1: none */
+    ang_pane hovered;                       /* ANG_PANES: none */
+    double hovered_hu;                      /* NaN: none */
+    int maximised;                          /* ang_pane; -1: none */
+    ang_rect pane[ANG_PANES];               /* in the window; of no size: not shown */
+    ang_rect editor;                        /* the transfer function's plot, in the window */
+    double editor_low, editor_high;         /* HU at its sides */
+    int point;                              /* chosen in the editor; -1: none */
+    const ang_region_values *region_values; /* of the document's measures, one each */
+    int measure;                            /* the chosen one's index; -1: none */
     const char *tool;
     bool corner_text, crosshair_lines; /* are shown on the panes */
     bool names_hidden, voxels_shown;

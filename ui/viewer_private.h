@@ -2,6 +2,7 @@
 #ifndef ANG_UI_VIEWER_PRIVATE_H
 #define ANG_UI_VIEWER_PRIVATE_H
 
+#include "core/scene/objects.h"
 #include "core/volume/histogram.h"
 #include "ui/focus.h"
 #include "ui/grips.h"
@@ -9,6 +10,7 @@
 #include "ui/loading.h"
 #include "ui/palette.h"
 #include "ui/panes/cutting.h"
+#include "ui/panes/measuring.h"
 #include "ui/state/cine.h"
 #include "ui/viewer.h"
 
@@ -23,6 +25,7 @@ typedef enum ang_tool {
     ANG_TOOL_SCROLL,
     ANG_TOOL_PAN,
     ANG_TOOL_CROP,
+    ANG_TOOL_MEASURE,
     ANG_TOOLS
 } ang_tool;
 const char *ang_tool_name(ang_tool tool);
@@ -47,6 +50,7 @@ typedef struct ang_volume_picture {
     ang_image image;
     ang_scene scene;        /* that `image` shows, without what it borrows */
     ang_transfer *transfer; /* of `scene` */
+    ang_objects objects;    /* the lengths that `image` shows */
     ang_document document;  /* that `image` shows */
     int size[2];            /* of the pane that `image` was made for */
     bool shown, refined;    /* there is an image; it is as fine as the pane */
@@ -73,6 +77,14 @@ typedef struct ang_gesture {
     double slices;     /* scrolled so far */
     bool cancelled;
 } ang_gesture;
+
+/* A picture of the window or of a pane as it is seen. */
+typedef struct ang_shot {
+    bool wanted;
+    int pane;   /* ang_pane; -1: the whole window */
+    int frame;  /* that was drawn when it was asked for: the menu may still be in it */
+    bool posed; /* it is taken of this frame, which names neither folders nor people */
+} ang_shot;
 
 typedef struct ang_viewer {
     const ang_viewer_host *host;
@@ -113,6 +125,7 @@ typedef struct ang_viewer {
     ang_gesture gesture;
     ang_cutting cutting;
     bool turns_about_crosshair; /* the hand on the 3D picture, else about the volume's centre */
+    ang_measuring measuring;
 
     ang_paint_texture thumbnail[ANG_THUMBNAILS]; /* of the presets, in the panel's order */
     int thumbnails;                              /* made so far */
@@ -121,7 +134,7 @@ typedef struct ang_viewer {
     char typed_path[1024];
     bool save_wanted; /* a picture of the pane, when refined */
     ang_pane save_pane;
-    bool save_window;
+    ang_shot shot;
     char saved[1024];
     char message[1100]; /* on the status line */
     bool message_bad;
@@ -166,7 +179,11 @@ const char *ang_volume_method_choice(const ang_viewer *viewer); /* "auto" or a n
 
 /* saving.c */
 void ang_viewer_save_preset(ang_viewer *viewer);
-void ang_save_window(ang_viewer *viewer);
+/* A picture of the window (-1) or of a pane as it is seen, writing included: of the next frame without a menu, the 3D
+ * pane's once it is refined. */
+void ang_shot_ask(ang_viewer *viewer, int pane);
+void ang_shot_pose(ang_viewer *viewer); /* before a frame is drawn */
+void ang_shot_take(ang_viewer *viewer); /* after it has been painted */
 /* The 3D pane's picture only once it is refined. */
 void ang_save_pane(ang_viewer *viewer);
 
@@ -202,6 +219,37 @@ void ang_volume_pan(ang_viewer *viewer, double right, double down);
 /* The first place along a pixel's ray that shows; false where there is none. */
 bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm);
 
+/* measuring.c */
+/* Nothing is being made or chosen: for another study. */
+void ang_measuring_start(ang_viewer *viewer);
+/* Takes the tool, for measures of this kind. */
+void ang_measuring_take(ang_viewer *viewer, ang_measure_kind kind);
+/* Gives up what is half made; whether there was any. */
+bool ang_measuring_cancel(ang_viewer *viewer);
+/* What the hands do on a pane; only the tool's. */
+void ang_measuring_slice(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame);
+void ang_measuring_volume(ang_viewer *viewer, const ang_canvas *canvas);
+int ang_measuring_chosen(const ang_viewer *viewer); /* index into the document's measures; -1: none */
+void ang_measuring_choose(ang_viewer *viewer, int index);
+/* Chooses it and brings the crosshair to its middle. */
+void ang_measuring_jump(ang_viewer *viewer, int index);
+void ang_measuring_delete(ang_viewer *viewer, int index);
+/* Of the document's measures, one each (only those of regions mean something); and of the one being made. */
+const ang_region_values *ang_measuring_values(ang_viewer *viewer);
+const ang_region_values *ang_measuring_pending_values(ang_viewer *viewer);
+/* Whether a slice pane shows a measure, and how it lies to the slice. */
+bool ang_measuring_shows(const ang_viewer *viewer, ang_pane pane, const ang_slice_frame *frame, int index,
+                         ang_presence *presence);
+/* What can be grabbed under the pointer (a handle or ANG_MARK_*), and of which measure. */
+int ang_measuring_under(const ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame,
+                        int *index);
+
+/* measure_drawing.c */
+void ang_measures_draw_slice(ang_viewer *viewer, ang_pane pane, ang_rect rect, const ang_canvas *canvas,
+                             const ang_slice_frame *frame);
+/* `scene`: of the pane's size. */
+void ang_measures_draw_volume(ang_viewer *viewer, ang_rect rect, ang_scene scene);
+
 /* overlay.c */
 void ang_pane_letters(ang_viewer *viewer, ang_rect rect, ang_vec3 right, ang_vec3 down);
 void ang_pane_bar(ang_viewer *viewer, ang_rect rect, double mm_per_pixel, bool at_centre);
@@ -218,6 +266,18 @@ void ang_panel(ang_viewer *viewer, ang_rect rect);
 void ang_cutting_panel(ang_viewer *viewer); /* cutting_panel.c */
 void ang_transfer_editor(ang_viewer *viewer);
 void ang_transfer_editor_start(ang_viewer *viewer);
+
+/* measures.c */
+void ang_measures_list(ang_viewer *viewer);
+/* Actions. */
+void ang_measuring_next(ang_viewer *viewer, int argument); /* takes the tool; once more: the next kind */
+void ang_measures_delete_chosen(ang_viewer *viewer, int argument);
+void ang_measures_clear(ang_viewer *viewer, int argument);
+void ang_measures_copy(ang_viewer *viewer, int argument); /* to the clipboard */
+void ang_measures_toggle(ang_viewer *viewer, int argument);
+bool ang_measures_any(const ang_viewer *viewer);
+bool ang_measures_chosen(const ang_viewer *viewer);
+bool ang_measures_shown(const ang_viewer *viewer, int argument);
 
 /* thumbnails.c */
 /* The presets that can be chosen, own_preset first; at most ANG_THUMBNAILS. Returns their number. */

@@ -123,6 +123,7 @@ void ang_panel(ang_viewer *viewer, ang_rect rect) {
         rendering(viewer);
         ang_cutting_panel(viewer);
         slices(viewer);
+        ang_measures_list(viewer);
         series(viewer);
     }
     ang_gui_area_end(viewer->gui);

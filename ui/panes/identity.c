@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 bool ang_identity_left_out(const ang_viewer *viewer) {
-    return !viewer->names_hidden && viewer->save_window && !viewer->host->keep_phi;
+    return !viewer->names_hidden && viewer->shot.posed && !viewer->host->keep_phi;
 }
 
 bool ang_identity_shown(const ang_viewer *viewer) { return !viewer->names_hidden && !ang_identity_left_out(viewer); }

@@ -138,7 +138,9 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect) {
         else
             snprintf(text, sizeof text, "zoom %.2f", document->view.zoom);
         cell(viewer, &x, y, 76, true, text);
-        snprintf(text, sizeof text, "tool: %s", ang_tool_name(viewer->tool));
+        bool measures = viewer->tool == ANG_TOOL_MEASURE;
+        snprintf(text, sizeof text, "tool: %s",
+                 measures ? ang_measure_kind_name(viewer->measuring.kind) : ang_tool_name(viewer->tool));
         cell(viewer, &x, y, 110, true, text);
         const ang_volume_picture *volume = &viewer->volume;
         snprintf(text, sizeof text, "%s, %s", volume->method ? volume->method->name : "-",
@@ -147,7 +149,7 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect) {
         snprintf(text, sizeof text, "%.0f ms, %s", volume->frame_ms, volume->refined ? "refined" : "coarse");
         cell(viewer, &x, y, 110, true, text);
     }
-    if (viewer->message[0]) {
+    if (viewer->message[0] && !viewer->shot.posed) { /* it may name a folder */
         double right = rect.x + rect.width - ang_gui_px(gui, 12);
         ang_ink ink = viewer->message_bad ? viewer->theme->bad : viewer->theme->accent;
         ang_gui_clip(gui, (ang_rect){x, rect.y, fmax(right - x, 0), rect.height});

@@ -155,6 +155,7 @@ static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, 
                                  .view = viewer->slice[orientation].view,
                                  .turns = canvas->held == ANG_BUTTON_LEFT && !viewer->input.key[ANG_KEY_SPACE] &&
                                           ang_crosshair_handle_at(viewer, pane, frame, canvas->x, canvas->y)};
+    ang_measuring_slice(viewer, pane, canvas, frame);
     if (canvas->double_clicked) {
         viewer->maximised = viewer->maximised == (int)pane ? -1 : (int)pane;
         gesture->cancelled = true;
@@ -166,7 +167,8 @@ static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, 
     bool cuts = gesture->pane == (int)pane && ang_cutting_hands(viewer, &cutting, canvas);
     if (ours && !cuts && canvas->held >= 0 && (canvas->dx != 0 || canvas->dy != 0 || canvas->pressed))
         drag(viewer, orientation, canvas, frame);
-    bool points = canvas->clicked && canvas->released == ANG_BUTTON_LEFT && viewer->tool != ANG_TOOL_PAN;
+    bool points = canvas->clicked && canvas->released == ANG_BUTTON_LEFT && viewer->tool != ANG_TOOL_PAN &&
+                  viewer->tool != ANG_TOOL_MEASURE;
     if (ours && !cuts && points && !gesture->turns)
         ang_viewer_point_at(viewer, ang_slice_at(frame, canvas->start_x, canvas->start_y));
     if (canvas->wheel == 0) return;
@@ -243,6 +245,7 @@ void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     ang_cutting_pane cutting = {rect, ang_pane_map_of_slice(&frame), &frame};
     ang_cutting_draw(viewer, &cutting, &canvas);
     if (viewer->crosshair_shown) ang_crosshair_draw(viewer, pane, rect, &frame, &canvas);
+    ang_measures_draw_slice(viewer, pane, rect, &canvas, &frame);
     ang_pane_letters(viewer, rect, frame.axes.right, frame.axes.down);
     if (viewer->corner_text) {
         write_corners(viewer, pane, rect);

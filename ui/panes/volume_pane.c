@@ -83,6 +83,7 @@ static void handle(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) 
                                  .crosshair = viewer->crosshair,
                                  .bends = canvas->modifiers == ANG_MOD_SHIFT,
                                  .strengthens = canvas->modifiers == (ANG_MOD_SHIFT | ANG_MOD_CONTROL)};
+    ang_measuring_volume(viewer, canvas);
     if (canvas->double_clicked) {
         viewer->maximised = viewer->maximised == ANG_PANE_VOLUME ? -1 : ANG_PANE_VOLUME;
         gesture->cancelled = true;
@@ -95,7 +96,7 @@ static void handle(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) 
     if (ours && !cuts && canvas->held >= 0 && (canvas->dx != 0 || canvas->dy != 0)) drag(viewer, canvas, rect);
     ang_vec3 mm;
     bool picks = ours && !cuts && canvas->clicked && canvas->released == ANG_BUTTON_LEFT && !gesture->bends &&
-                 !gesture->strengthens;
+                 !gesture->strengthens && viewer->tool != ANG_TOOL_MEASURE;
     if (picks && ang_volume_pick(viewer, canvas->start_x, canvas->start_y, &mm)) ang_viewer_point_at(viewer, mm);
     if (canvas->wheel != 0) zoom(viewer, rect, canvas->x, canvas->y, pow(1.15, canvas->wheel));
 }
@@ -145,6 +146,7 @@ void ang_volume_pane(ang_viewer *viewer, ang_rect rect) {
     ang_cutting_pane cutting = cutting_pane(viewer, rect);
     ang_cutting_draw(viewer, &cutting, &canvas);
     ang_scene scene = ang_volume_scene(viewer, &viewer->document, NULL, (int)rect.width, (int)rect.height);
+    ang_measures_draw_volume(viewer, rect, scene);
     ang_pane_letters(viewer, rect, scene.camera.right, ang_vec3_scale(scene.camera.up, -1));
     if (viewer->corner_text) {
         write_corners(viewer, rect);

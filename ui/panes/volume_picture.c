@@ -49,6 +49,7 @@ void ang_volume_picture_clear(ang_viewer *viewer) {
     int choice = volume->choice;
     drop_renderer(volume);
     ang_transfer_free(volume->transfer);
+    ang_objects_clear(&volume->objects);
     ang_image_clear(&volume->image);
     free(volume->rgba);
     ang_painter_forget(viewer->painter, &volume->texture);
@@ -152,6 +153,18 @@ static bool draw(ang_viewer *viewer, ang_scene *scene, bool fine, ang_image *ima
     return true;
 }
 
+/* Marks of the lengths that are shown. */
+static bool mark_lengths(const ang_viewer *viewer, ang_objects *objects, ang_error *err) {
+    const ang_measures *measures = &viewer->document.measures;
+    for (int i = 0; i < measures->count && !measures->hidden; i++) {
+        const ang_measurement *item = &measures->item[i];
+        if (item->kind == ANG_MEASURE_LENGTH &&
+            !ang_objects_add_mark(objects, viewer->study.volume, item->point[0], item->point[1], err))
+            return false;
+    }
+    return true;
+}
+
 static int scaled(int size, double scale) { return (int)fmax(round(size * scale), 1); }
 
 void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
@@ -167,18 +180,24 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     ang_scene scene =
         ang_volume_scene(viewer, &viewer->document, transfer, scaled(width, scale), scaled(height, scale));
     ang_image image = {0};
-    bool done = transfer && draw(viewer, &scene, refine, &image, &err);
+    ang_objects objects = {0};
+    scene.objects = &objects;
+    bool done = transfer && mark_lengths(viewer, &objects, &err) && draw(viewer, &scene, refine, &image, &err);
     if (!done && err.code == ANG_INTERRUPTED) {
         ang_image_clear(&image);
+        ang_objects_clear(&objects);
         ang_transfer_free(transfer);
         volume->asked_seconds = ang_now_ms() / 1000;
         return;
     }
     ang_transfer_free(volume->transfer);
     ang_image_clear(&volume->image);
+    ang_objects_clear(&volume->objects);
     volume->transfer = transfer;
+    volume->objects = objects;
     volume->image = image;
     volume->scene = scene;
+    volume->scene.objects = &volume->objects;
     volume->document = viewer->document;
     volume->size[0] = width;
     volume->size[1] = height;

@@ -162,6 +162,7 @@ bool ang_document_same_rendering(const ang_document *a, const ang_document *b) {
     bool coloured = a->mode == ANG_MODE_DVR || a->mode == ANG_MODE_ISO;
     return same_style(a, b) && same_direction(&a->view, &b->view) && same_zoom(&a->view, &b->view) &&
            a->crop == b->crop && (!a->crop || same_box(a, b)) && same_plane(a, b) &&
+           ang_measures_same_lengths(&a->measures, &b->measures) &&
            (coloured ? same_transfer(a, b) : same_window(a, b)) &&
            (a->mode != ANG_MODE_ISO || same_numbers(&a->iso_hu, &b->iso_hu, 1));
 }
@@ -173,6 +174,7 @@ static difference compare(const ang_document *a, const ang_document *b) {
     bool rest = same_transfer(a, b) && same_style(a, b) && same_window(a, b) && same_direction(&a->view, &b->view) &&
                 strcmp(a->preset, b->preset) == 0 && a->edited == b->edited && a->slab == b->slab &&
                 a->crop == b->crop && same_box(a, b) && same_plane(a, b) && ang_turn_same(&a->turn, &b->turn) &&
+                ang_measures_same(&a->measures, &b->measures) &&
                 same_numbers((double[]){a->iso_hu, a->slab_mm, a->shift_hu, a->stretch},
                              (double[]){b->iso_hu, b->slab_mm, b->shift_hu, b->stretch}, 4);
     return !rest ? OTHER : same_zoom(&a->view, &b->view) ? SAME : SAME_BUT_ZOOM;

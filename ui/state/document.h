@@ -4,6 +4,7 @@
 
 #include "core/scene/scene.h"
 #include "core/transfer/preset.h"
+#include "core/volume/measures.h"
 #include "core/volume/reslice.h"
 #include "ui/state/turn.h"
 
@@ -29,6 +30,7 @@ typedef struct ang_document {
     ang_vec3 crop_lower, crop_upper; /* the crop box, kept while it is off: voxel index, within ang_volume_box */
     ang_clip_plane clip;             /* of the 3D picture; a zero normal: none */
     ang_turn turn;                   /* of the slice planes */
+    ang_measures measures;
 } ang_document;
 
 /* Takes over everything of a preset but the window, which it takes where the preset shows values (mip, minip, mean).
