@@ -1,6 +1,7 @@
 /* What all verbs share: progress on stderr, messages, small parsers, the clock, where presets lie. */
 #include "app/verbs.h"
 #include "core/base/clock.h"
+#include "io/preset_own.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -144,8 +145,14 @@ bool ang_app_parse_numbers(const char *option, const char *text, int least, int 
 }
 
 const char *const *ang_app_preset_folders(void) {
-    /* The source folder serves a program that was built but not installed. */
-    static const char *const folders[] = {ANG_PRESET_INSTALLED, ANG_PRESET_SOURCE, NULL};
+    /* The user's own hide installed ones of the same name. The source folder serves a program that was built but not
+     * installed. */
+    static const char *folders[4];
+    int count = 0;
+    if (ang_preset_own_folder()) folders[count++] = ang_preset_own_folder();
+    folders[count++] = ANG_PRESET_INSTALLED;
+    folders[count++] = ANG_PRESET_SOURCE;
+    folders[count] = NULL;
     return folders;
 }
 

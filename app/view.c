@@ -5,12 +5,12 @@
 
 #include "app/picture_state.h"
 #include "app/view_preferences.h"
+#include "app/view_presets.h"
 #include "app/view_state.h"
 #include "app/view_waiting.h"
 #include "io/font.h"
 #include "io/image/image_io.h"
 #include "io/load.h"
-#include "io/preset.h"
 #include "io/replace.h"
 #include "io/state.h"
 #include "io/text.h"
@@ -21,12 +21,11 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_PRESETS = 126, MOST_FILES = 9999 };
+enum { MOST_FILES = 9999 };
 
 typedef struct view {
     const ang_options *options;
-    ang_preset *presets[MOST_PRESETS + 2];
-    int preset_count;
+    ang_view_presets presets;
     char *state; /* as last written; NULL: not yet */
     bool state_failed;
     ang_waiting waiting;
@@ -143,12 +142,17 @@ static bool session(void *context, const ang_study *study, ang_session *session,
     return ang_waiting_session(&((view *)context)->waiting, study, session, err);
 }
 
-static bool save_preset(void *context, const ang_document *document, char *path, size_t size, ang_error *err) {
-    char *text = ang_view_preset_print(document, err);
-    bool saved =
-        text && new_file(context, "preset", "json", path, size, err) && ang_file_replace(path, text, strlen(text), err);
-    free(text);
-    return saved;
+static ang_preset_place preset_place(void *context, const char *name) {
+    return ang_view_preset_place(&((view *)context)->presets, name);
+}
+
+static bool save_preset(void *context, const ang_document *document, const char *name, const char *description,
+                        char *path, size_t size, ang_error *err) {
+    return ang_view_preset_save(&((view *)context)->presets, document, name, description, path, size, err);
+}
+
+static bool delete_preset(void *context, const char *name, ang_error *err) {
+    return ang_view_preset_delete(&((view *)context)->presets, name, err);
 }
 
 /* Only what has changed is written. */
@@ -167,30 +171,6 @@ static void shown(void *context, const ang_viewer_state *state) {
     }
     free(view->state);
     view->state = text;
-}
-
-/* The folders' presets; one that cannot be read is said and left out. The one that was asked for comes first where it
- * is a file. */
-static bool read_presets(view *view, const char **chosen, ang_error *err) {
-    ang_preset_names names;
-    if (view->options->preset) {
-        ang_preset *asked = ang_preset_find(view->options->preset, ang_app_preset_folders(), err);
-        if (!asked) return false;
-        view->presets[view->preset_count++] = asked;
-        *chosen = asked->name;
-    }
-    if (!ang_preset_list(ang_app_preset_folders(), &names, err)) return false;
-    for (size_t i = 0; i < names.count && view->preset_count < MOST_PRESETS; i++) {
-        ang_error broken = {0};
-        if (*chosen && strcmp(names.names[i], *chosen) == 0) continue;
-        ang_preset *preset = ang_preset_load(names.paths[i], &broken);
-        if (preset)
-            view->presets[view->preset_count++] = preset;
-        else
-            fprintf(stderr, "warning: %s\n", broken.message);
-    }
-    ang_preset_names_clear(&names);
-    return true;
 }
 
 static void remember(void *context, const ang_viewer_settings *settings) {
@@ -214,7 +194,7 @@ static bool run(view *view, ang_error *err) {
     if (options->size && !ang_app_parse_dims("size", options->size, 2, 16384, size, err)) return false;
     how.width = size[0];
     how.height = size[1];
-    if (!read_presets(view, &how.preset, err)) return false;
+    if (!ang_view_presets_read(&view->presets, &how.preset, err)) return false;
     if (options->state && !ang_waiting_read(&view->waiting, options->state, err)) return false;
     if (options->state && !how.path) how.path = options->state;
     ang_view_preferences_read(&view->settings);
@@ -223,16 +203,18 @@ static bool run(view *view, ang_error *err) {
                             .release = release,
                             .preset_for = preset_for,
                             .save_picture = save_picture,
+                            .preset_place = preset_place,
                             .save_preset = save_preset,
                             .save_state = save_state,
                             .is_state = is_state,
                             .open_state = open_state,
                             .session = session,
+                            .delete_preset = delete_preset,
                             .shown = options->write_state ? shown : NULL,
                             .remember = remember,
                             .full_path = full_path,
                             .settings = &view->settings,
-                            .presets = (const ang_preset *const *)view->presets,
+                            .presets = (const ang_preset *const *)view->presets.list,
                             .font = ang_font_find(),
                             .version = ANG_VERSION,
                             .threads = options->threads,
@@ -243,9 +225,11 @@ static bool run(view *view, ang_error *err) {
 int ang_app_view(const ang_options *options, ang_error *err) {
     if (options->argument_count > 1 && !ang_app_arguments(options, 1, "view: give one file or folder to open", err))
         return ANG_USAGE;
-    view view = {.options = options, .waiting = {.options = options, .state = ang_state_default}};
+    view view = {.options = options,
+                 .presets = {.options = options},
+                 .waiting = {.options = options, .state = ang_state_default}};
     bool done = run(&view, err);
-    for (int i = 0; i < view.preset_count; i++) ang_preset_free(view.presets[i]);
+    ang_view_presets_clear(&view.presets);
     free(view.state);
     ang_waiting_clear(&view.waiting);
     return done ? ANG_OK : (int)err->code;

@@ -74,10 +74,10 @@ static bool add_render_options(const ang_viewer_state *shown, ang_state *state, 
            add_cutting(shown, state, err) && add_marks(state, &shown->document->measures, err);
 }
 
-char *ang_view_preset_print(const ang_document *document, ang_error *err) {
-    ang_preset preset = {.name = (char *)document->preset,
+char *ang_view_preset_print(const ang_document *document, const char *name, const char *description, ang_error *err) {
+    ang_preset preset = {.name = (char *)name,
                          .modality = "any",
-                         .description = "as shown",
+                         .description = (char *)description,
                          .version = 1,
                          .mode = document->mode,
                          .shading = document->shading,
@@ -94,7 +94,7 @@ char *ang_view_preset_print(const ang_document *document, ang_error *err) {
 static const char *const pane_names[ANG_PANES] = {"axial", "coronal", "sagittal", "volume"};
 
 static ang_preset *preset_of(const ang_document *document, ang_error *err) {
-    char *text = ang_view_preset_print(document, err);
+    char *text = ang_view_preset_print(document, document->preset, "as shown", err);
     ang_preset *preset = text ? ang_preset_parse("what is shown", text, err) : NULL;
     free(text);
     return preset;
@@ -318,6 +318,30 @@ static void add_measures(cJSON *live, const ang_viewer_state *shown) {
     cJSON_AddNumberToObject(object, "chosen", shown->measure);
 }
 
+/* What is chosen in the transfer-function editor, and what the slices show of it. */
+static void add_editing(cJSON *editor, const ang_viewer_state *shown) {
+    const ang_editing *editing = shown->editing;
+    cJSON *points = cJSON_AddArrayToObject(editor, "points");
+    for (int i = 0; i < shown->document->count; i++)
+        if (editing->chosen.has[i]) cJSON_AddItemToArray(points, cJSON_CreateNumber(i));
+    cJSON_AddBoolToObject(editor, "has_keys", editing->focused);
+    if (!editing->marked) return;
+    const ang_hu_share *mark = &editing->mark;
+    cJSON *range = cJSON_AddObjectToObject(editor, "in_slices");
+    add_numbers(range, "hu", (double[]){mark->low, mark->high}, 2);
+    cJSON_AddNumberToObject(range, "voxels", (double)mark->voxels);
+    ang_json_add_number(range, "share", mark->share);
+    ang_json_add_number(range, "ml", mark->ml);
+}
+
+/* The dialog for saving a preset. */
+static void add_saving(cJSON *live, const ang_viewer_state *shown) {
+    cJSON *saving = cJSON_AddObjectToObject(live, "saving_preset");
+    cJSON_AddStringToObject(saving, "name", shown->saving.name);
+    cJSON_AddStringToObject(saving, "problem", shown->saving.problem);
+    cJSON_AddBoolToObject(saving, "replaces", shown->saving.replaces);
+}
+
 static void add_live(cJSON *live, const ang_viewer_state *shown) {
     add_slices(live, shown);
     cJSON *cine = cJSON_AddObjectToObject(live, "cine");
@@ -331,9 +355,13 @@ static void add_live(cJSON *live, const ang_viewer_state *shown) {
     add_numbers(editor, "hu", (double[]){shown->editor_low, shown->editor_high}, 2);
     cJSON_AddNumberToObject(editor, "point", shown->point);
     add_clip_plane(live, &shown->document->clip);
+    add_editing(editor, shown);
+    if (shown->saving.name) add_saving(live, shown);
     ang_json_add_number(live, "azimuth_deg", shown->document->view.azimuth_deg);
     ang_json_add_number(live, "elevation_deg", shown->document->view.elevation_deg);
     cJSON_AddBoolToObject(live, "refined", shown->refined);
+    cJSON_AddBoolToObject(live, "at_rest", shown->at_rest);
+    if (shown->judged) ang_json_add_number(live, "error_levels", shown->error);
     ang_json_add_number(live, "latency_ms", shown->latency_ms);
     cJSON_AddNumberToObject(live, "frames", shown->frames);
     ang_json_add_number(live, "frame_ms", shown->frame_ms);

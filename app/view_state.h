@@ -19,6 +19,6 @@ bool ang_view_session_of(const ang_state *state, const char *file, const ang_stu
  * may identify a patient. NULL where memory is out. Free with free(). */
 char *ang_view_state_print(const ang_viewer_state *shown, const ang_load_options *data_options);
 /* What is shown as the text of a preset's file. NULL with ANG_LIMIT. Free with free(). */
-char *ang_view_preset_print(const ang_document *document, ang_error *err);
+char *ang_view_preset_print(const ang_document *document, const char *name, const char *description, ang_error *err);
 
 #endif

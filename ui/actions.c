@@ -44,8 +44,53 @@ static void save_state(ang_viewer *viewer, int argument) {
 
 static void save_preset(ang_viewer *viewer, int argument) {
     (void)argument;
-    ang_viewer_save_preset(viewer);
+    ang_preset_dialog_open(viewer, false);
 }
+
+static bool edits_curve(const ang_viewer *viewer) { return ang_transfer_editor_has_keys(viewer); }
+static bool has_points(const ang_viewer *viewer) { return edits_curve(viewer) && viewer->point >= 0; }
+
+static void edit_curve(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_transfer_editor_focus(viewer);
+}
+static bool is_editing_curve(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->editing.focused;
+}
+static void step_point(ang_viewer *viewer, int by) { ang_transfer_editor_step(viewer, by, false); }
+static void add_next_point(ang_viewer *viewer, int by) { ang_transfer_editor_step(viewer, by, true); }
+static void choose_all_points(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_transfer_editor_choose_all(viewer);
+}
+static void insert_point(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_transfer_editor_insert(viewer);
+}
+static void delete_points(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_transfer_editor_delete(viewer);
+}
+static void zoom_curve(ang_viewer *viewer, int direction) {
+    double about =
+        viewer->point >= 0 ? viewer->document.points[viewer->point].hu : (viewer->editor_low + viewer->editor_high) / 2;
+    ang_transfer_editor_zoom(viewer, about, direction > 0 ? 0.5 : 2);
+}
+static void show_whole_curve(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_transfer_editor_show_all(viewer);
+}
+static void show_selected(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->editing.shows = !viewer->editing.shows;
+}
+static bool shows_selected(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->editing.shows;
+}
+
+static void step_preset(ang_viewer *viewer, int by) { ang_viewer_step_preset(viewer, by); }
 
 static void quit(ang_viewer *viewer, int argument) {
     (void)argument;
@@ -296,14 +341,32 @@ static const ang_action actions[] = {
     {"File", "Save pane as seen", "with letters, bar and measures", ANG_KEY_F12, 0, save_seen, 0, false, is_ready,
      NULL},
     {"File", "Save picture of the window", NULL, 'S', C | S, save_window, 0, false, NULL, NULL},
-    {"File", "Save preset", "the transfer function and modes as shown, a file for --preset", 'P', C, save_preset, 0,
-     false, is_ready, NULL},
+    {"File", "Save preset...", "what is shown, as a preset of your own, by name", 'P', C, save_preset, 0, false,
+     is_ready, NULL},
     {"File", "Open state...", "a saved state, with the data that it is of", 'O', C | A, open_path, 0, true, NULL, NULL},
     {"File", "Save state", "all that is shown, and where its data are: to go on later, and for render --state", 'S',
      C | A, save_state, 0, false, is_ready, NULL},
     {"File", "Quit", NULL, 'Q', C, quit, 0, true, NULL, NULL},
     {"Edit", "Undo", "presets, points, windows, camera, planes, crop", 'Z', C, undo, 0, false, can_undo, NULL},
     {"Edit", "Redo", NULL, 'Z', C | S, redo, 0, false, can_redo, NULL},
+    {"Curve", "Edit the points by keys", "arrows move what is chosen, with Shift ten times finer; Esc leaves", 'E', 0,
+     edit_curve, 0, false, is_ready, is_editing_curve},
+    {"Curve", "Next point", NULL, '.', 0, step_point, 1, true, edits_curve, NULL},
+    {"Curve", "Previous point", NULL, ',', 0, step_point, -1, false, edits_curve, NULL},
+    {"Curve", "Choose the next one too", "also a click with Shift, or a drag around several", '.', S, add_next_point, 1,
+     false, edits_curve, NULL},
+    {"Curve", "Choose the previous one too", NULL, ',', S, add_next_point, -1, false, edits_curve, NULL},
+    {"Curve", "Choose all points", NULL, 'A', C, choose_all_points, 0, false, edits_curve, NULL},
+    {"Curve", "Add a point", "also a double click", ANG_KEY_INSERT, 0, insert_point, 0, true, edits_curve, NULL},
+    {"Curve", "Delete the chosen points", "also a right click on one", ANG_KEY_DELETE, 0, delete_points, 0, false,
+     has_points, NULL},
+    {"Curve", "Narrower range of HU", "also the wheel, about the pointer", '+', 0, zoom_curve, 1, true, edits_curve,
+     NULL},
+    {"Curve", "Wider range of HU", NULL, '-', 0, zoom_curve, -1, false, edits_curve, NULL},
+    {"Curve", "Whole range of HU", "also a double click on the numbers", 'E', S, show_whole_curve, 0, false, is_ready,
+     NULL},
+    {"Curve", "Show in slices", "what the chosen points or a dragged range of HU select", 'H', 0, show_selected, 0,
+     false, is_ready, shows_selected},
     {"Tools", "Window", "left drag in a slice: across width, up and down centre", 'W', 0, choose_tool, ANG_TOOL_WINDOW,
      false, is_ready, is_tool},
     {"Tools", "Crosshair", "left drag in a slice moves it", 'C', 0, choose_tool, ANG_TOOL_CROSSHAIR, false, is_ready,
@@ -334,6 +397,8 @@ static const ang_action actions[] = {
      NULL},
     {"View", "Zoom out", NULL, '-', 0, zoom, -1, false, is_ready, NULL},
     {"View", "Pictures of the presets", NULL, 'B', 0, browse, 0, false, is_ready, NULL},
+    {"View", "Next preset", NULL, 'N', 0, step_preset, 1, false, is_ready, NULL},
+    {"View", "Previous preset", NULL, 'N', S, step_preset, -1, false, is_ready, NULL},
     {"View", "Anterior", NULL, 'A', A, standard_view, 0, true, is_ready, NULL},
     {"View", "Posterior", NULL, 'P', A, standard_view, 1, false, is_ready, NULL},
     {"View", "Left", NULL, 'L', A, standard_view, 2, false, is_ready, NULL},
@@ -414,8 +479,8 @@ static void escape(ang_viewer *viewer) {
         return;
     } else if (viewer->palette.open) {
         viewer->palette.open = false;
-    } else if (viewer->opening || viewer->help || viewer->notes || viewer->browsing) {
-        viewer->opening = viewer->help = viewer->notes = viewer->browsing = false;
+    } else if (viewer->opening || viewer->help || viewer->notes || viewer->browsing || viewer->preset_dialog.open) {
+        viewer->opening = viewer->help = viewer->notes = viewer->browsing = viewer->preset_dialog.open = false;
     } else if (ang_gui_navigating(viewer->gui)) {
         ang_gui_leave_widgets(viewer->gui);
     } else if (viewer->cine.running) {
@@ -424,7 +489,7 @@ static void escape(ang_viewer *viewer) {
         ang_loading_stop(&viewer->loading);
     } else if (viewer->failure[0] && viewer->ready) {
         viewer->failure[0] = '\0';
-    } else {
+    } else if (!ang_transfer_editor_escape(viewer)) {
         viewer->maximised = -1;
     }
 }
@@ -483,6 +548,8 @@ void ang_actions_keys(ang_viewer *viewer) {
         }
         bool taken = viewer->typing || viewer->palette.open || ang_gui_popup_open(viewer->gui) ||
                      (is_widgets(key) && ang_gui_navigating(viewer->gui));
-        if (key != ANG_KEY_NONE && !taken) press(viewer, key, input->press[i].modifiers);
+        if (key == ANG_KEY_NONE || taken) continue;
+        if (!ang_transfer_editor_key(viewer, key, input->press[i].modifiers))
+            press(viewer, key, input->press[i].modifiers);
     }
 }

@@ -82,6 +82,8 @@ void ang_gui_label(ang_gui *gui, const char *text); /* before a control of the s
 void ang_gui_same_line(ang_gui *gui);
 void ang_gui_gap(ang_gui *gui, double height);
 bool ang_gui_button(ang_gui *gui, const char *label, double width, bool enabled);
+/* Whether the widget before is held down. */
+bool ang_gui_pressed(const ang_gui *gui);
 bool ang_gui_checkbox(ang_gui *gui, const char *label, bool *value);
 bool ang_gui_selectable(ang_gui *gui, const char *label, bool selected);
 /* One of `count` words; true where it changed. */
@@ -91,6 +93,7 @@ bool ang_gui_number(ang_gui *gui, const char *name, double *value, double speed,
                     const char *format, double width);
 /* A number that is typed: true when Enter or leaving the field changed it. */
 bool ang_gui_number_field(ang_gui *gui, const char *name, double *value, const char *format, double width);
+/* A line of text; true on Enter. In a message that has just opened the first one has the keyboard. */
 bool ang_gui_text_field(ang_gui *gui, const char *name, char *text, size_t size, double width);
 /* A swatch that opens a picker; red, green, blue in 0..1. */
 bool ang_gui_colour(ang_gui *gui, const char *name, double colour[3]);

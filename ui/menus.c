@@ -92,6 +92,7 @@ static const struct {
     {"Double click", "the pane large, and back"},
     {"Drag of a gap between panes", "their sizes; double click: equal"},
     {"Shift in a drag of numbers", "ten times finer"},
+    {"D held down", "the preset as it is saved"},
     {"Esc", "cancel a drag, loading, a window"},
     {"1 ... 9", "windows; in the 3D pane: presets"},
     {"Shift + arrows", "slice: the crosshair; 3D: turn"},

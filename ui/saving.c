@@ -1,19 +1,8 @@
-/* Pictures and presets to files, through the host. */
+/* Pictures to files, through the host. */
 #include "core/base/memory.h"
 #include "ui/viewer_private.h"
 
 #include <stdlib.h>
-
-void ang_viewer_save_preset(ang_viewer *viewer) {
-    ang_error err = {0};
-    const ang_viewer_host *host = viewer->host;
-    if (!host->save_preset(host->context, &viewer->document, viewer->saved, sizeof viewer->saved, &err)) {
-        viewer->saved[0] = '\0';
-        ang_viewer_say(viewer, true, "%s", err.message);
-    } else {
-        ang_viewer_say(viewer, false, "Saved %s", viewer->saved);
-    }
-}
 
 /* With the state of the 3D pane's picture in it, where it is that. */
 static void save(ang_viewer *viewer, const char *what, const ang_image *image, bool with_state, ang_error *err) {

@@ -54,14 +54,20 @@ const ang_preset *ang_preset_named(const ang_viewer *viewer, const char *name) {
 static const ang_preset *first_preset(ang_viewer *viewer, const char *wanted, ang_error *err) {
     const ang_preset *found = wanted ? ang_preset_named(viewer, wanted) : NULL;
     if (found) return found;
-    viewer->own_preset = viewer->host->preset_for(viewer->host->context, &viewer->study, err);
-    return viewer->own_preset;
+    ang_preset *made = viewer->host->preset_for(viewer->host->context, &viewer->study, err);
+    found = made ? ang_preset_named(viewer, made->name) : NULL;
+    if (found)
+        ang_preset_free(made);
+    else
+        viewer->own_preset = made;
+    return found ? found : made;
 }
 
 void ang_study_close(ang_viewer *viewer) {
     if (!viewer->ready) return;
     ang_playing_stop(viewer);
     ang_thumbnails_clear(viewer);
+    viewer->browsing = viewer->preset_dialog.open = viewer->comparing = false;
     ang_volume_picture_clear(viewer);
     for (int i = 0; i < ANG_ORIENTATIONS; i++) ang_slice_picture_clear(viewer, &viewer->slice[i]);
     free(viewer->histogram);

@@ -20,6 +20,8 @@ typedef uint32_t ang_ink;
 #define ANG_INK_CROP   ANG_INK(94, 196, 255, 255)
 #define ANG_INK_CLIP   ANG_INK(255, 178, 66, 255)
 #define ANG_INK_BORDER ANG_INK(56, 56, 56, 255)
+/* What a range of HU selects: orange, which any eyes tell from grey. */
+#define ANG_INK_MARK ANG_INK(240, 160, 30, 255)
 
 typedef struct ang_theme {
     const char *name; /* "dark", "light" */

@@ -58,10 +58,18 @@ static void layout(ang_viewer *viewer) {
         if (places.panel.width >= 1) ang_panel(viewer, places.panel);
         panes(viewer);
         ang_focus_follow(viewer);
+        ang_transfer_editor_leave(viewer);
     }
     ang_status_line(viewer, places.status);
     ang_messages(viewer);
     ang_palette_show(viewer);
+}
+
+/* Seconds until there is something to do for the 3D pane while the hands rest; infinite: nothing. */
+static double rest_work_in(const ang_viewer *viewer) {
+    if (!viewer->ready || viewer->pane[ANG_PANE_VOLUME].width < 1) return INFINITY;
+    if (ang_thumbnails_wanted(viewer)) return 0;
+    return fmin(ang_volume_refine_in(viewer), ang_picture_error_in(viewer));
 }
 
 void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
@@ -84,6 +92,7 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .point = viewer->point,
                                 .measure = viewer->ready ? ang_measuring_chosen(viewer) : -1,
                                 .region_values = viewer->measuring.values,
+                                .editing = &viewer->editing,
                                 .tool = ang_tool_name(viewer->tool),
                                 .corner_text = viewer->corner_text,
                                 .crosshair_lines = viewer->crosshair_shown,
@@ -93,6 +102,9 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .method = volume->method ? volume->method->name : NULL,
                                 .size = {volume->size[0], volume->size[1]},
                                 .refined = volume->refined,
+                                .at_rest = viewer->ready && isinf(rest_work_in(viewer)),
+                                .judged = volume->refined && volume->error.version == volume->version,
+                                .error = volume->error.levels,
                                 .latency_ms = viewer->latency_ms,
                                 .frame_ms = volume->frame_ms,
                                 .undo = ang_history_can_undo(&viewer->history),
@@ -108,6 +120,10 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .recent = &viewer->recent};
     ang_layout_places places = ang_layout_place(&viewer->grips.layout, &viewer->grips.frame);
     memcpy(state->grip, places.grip, sizeof state->grip);
+    const ang_preset_dialog *dialog = &viewer->preset_dialog;
+    state->saving.name = dialog->open ? dialog->name : NULL;
+    state->saving.problem = dialog->problem;
+    state->saving.replaces = dialog->asked;
     for (int i = 0; i < ANG_ORIENTATIONS && viewer->ready; i++) {
         state->slice[i].index = ang_slice_index(&viewer->range[i], viewer->crosshair);
         state->slice[i].count = viewer->range[i].count;
@@ -157,6 +173,21 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
     return ang_painter_check(viewer->painter, err);
 }
 
+/* The fine picture first, then how wrong it is, then small ones of the presets; each until input comes. */
+static void rest_work(ang_viewer *viewer) {
+    viewer->redraws = settling_frames;
+    if (ang_window_pending(viewer->window) || rest_work_in(viewer) > 0) return;
+    ang_rect rect = viewer->pane[ANG_PANE_VOLUME];
+    if (ang_volume_refine_in(viewer) <= 0) {
+        ang_volume_update(viewer, (int)rect.width, (int)rect.height, true);
+    } else if (ang_picture_error_in(viewer) <= 0) {
+        ang_picture_error_find(viewer);
+    } else if (ang_thumbnails_wanted(viewer)) {
+        ang_thumbnails_step(viewer);
+        viewer->redraws = 0; /* nothing has to settle */
+    }
+}
+
 /* Sleeps as long as nothing has to be drawn; refines the picture when the hands rest. */
 static void rest(ang_viewer *viewer) {
     if (viewer->redraws > 0) {
@@ -170,23 +201,11 @@ static void rest(ang_viewer *viewer) {
         ang_window_wait(viewer->window, ang_playing_next_in(viewer));
         return;
     }
-    double seconds = INFINITY;
-    bool shown = viewer->ready && viewer->pane[ANG_PANE_VOLUME].width >= 1;
-    if (shown) seconds = ang_volume_refine_in(viewer);
-    bool thumbnails = shown && ang_thumbnails_wanted(viewer);
-    if (thumbnails) seconds = 0;
+    double seconds = rest_work_in(viewer);
     if (viewer->message[0]) seconds = fmin(seconds, fmax(viewer->message_until - ang_now_ms() / 1000, 0.01));
     if (viewer->typing) seconds = fmin(seconds, 0.5); /* the text cursor blinks */
     if (seconds > 0) ang_window_wait(viewer->window, seconds);
-    if (shown && !ang_window_pending(viewer->window) && ang_volume_refine_in(viewer) <= 0) {
-        ang_rect rect = viewer->pane[ANG_PANE_VOLUME];
-        ang_volume_update(viewer, (int)rect.width, (int)rect.height, true);
-    }
-    viewer->redraws = settling_frames;
-    if (thumbnails && !ang_window_pending(viewer->window)) {
-        ang_thumbnails_step(viewer);
-        viewer->redraws = 0; /* nothing has to settle */
-    }
+    rest_work(viewer);
 }
 
 static bool work(ang_viewer *viewer, const ang_viewer_options *options, ang_error *err) {

@@ -14,6 +14,7 @@
 #include "ui/settings.h"
 #include "ui/state/cine.h"
 #include "ui/state/document.h"
+#include "ui/state/editing.h"
 #include "ui/state/session.h"
 #include "ui/state/slice_geometry.h"
 
@@ -51,9 +52,14 @@ typedef struct ang_viewer_state {
     ang_rect pane[ANG_PANES];               /* in the window; of no size: not shown */
     ang_rect editor;                        /* the transfer function's plot, in the window */
     double editor_low, editor_high;         /* HU at its sides */
-    int point;                              /* chosen in the editor; -1: none */
+    int point;                              /* chosen in the editor, of several the last; -1: none */
     const ang_region_values *region_values; /* of the document's measures, one each */
     int measure;                            /* the chosen one's index; -1: none */
+    const ang_editing *editing;
+    struct {
+        const char *name, *problem;
+        bool replaces; /* it asks whether to */
+    } saving;          /* a preset: what the dialog holds; name NULL: it is not open */
     const char *tool;
     bool corner_text, crosshair_lines; /* are shown on the panes */
     bool names_hidden, voxels_shown;
@@ -61,6 +67,9 @@ typedef struct ang_viewer_state {
     const char *method; /* that draws; NULL: none yet */
     int size[2];        /* of the 3D picture, pixels */
     bool refined;
+    bool at_rest;       /* nothing is left to do until input comes */
+    bool judged;        /* its error is known, or that it cannot be: */
+    double error;       /* levels; NAN: cannot be known */
     double latency_ms;  /* from the last event to the window that showed what came of it */
     double frame_ms;    /* the last 3D picture's */
     int undo, redo;     /* 1 where possible */
@@ -74,6 +83,9 @@ typedef struct ang_viewer_state {
     ang_rect grip[ANG_GRIPS];
     const ang_recent *recent;
 } ang_viewer_state;
+
+/* Where a preset of some name is kept. */
+typedef enum ang_preset_place { ANG_PRESET_AT_NOWHERE, ANG_PRESET_AT_INSTALLED, ANG_PRESET_AT_OWN } ang_preset_place;
 
 /* What the viewer asks of the program. */
 typedef struct ang_viewer_host {
@@ -97,8 +109,13 @@ typedef struct ang_viewer_host {
      * suits. Where it was saved of other data `err` says so, though this returns true. False where there is no state
      * or, with a message in `err`, it cannot be shown. */
     bool (*session)(void *context, const ang_study *study, ang_session *session, ang_error *err);
-    /* Writes what is shown as a preset to a new file, whose path goes to `path`. */
-    bool (*save_preset)(void *context, const ang_document *document, char *path, size_t size, ang_error *err);
+    ang_preset_place (*preset_place)(void *context, const char *name);
+    /* Writes what is shown as one of the user's own presets, over one of the same name; its file's path goes to `path`.
+     * Saving and deleting free all `presets` and read them again. */
+    bool (*save_preset)(void *context, const ang_document *document, const char *name, const char *description,
+                        char *path, size_t size, ang_error *err);
+    /* One of the user's own. */
+    bool (*delete_preset)(void *context, const char *name, ang_error *err);
     /* Told after each frame after which something differs; NULL: not wanted. */
     void (*shown)(void *context, const ang_viewer_state *state);
     /* Keeps settings for the next run; NULL: not wanted. */
@@ -106,7 +123,7 @@ typedef struct ang_viewer_host {
     /* The absolute path of a file or folder into `full`; false where it is too long. NULL: none are remembered. */
     bool (*full_path)(void *context, const char *path, char *full, size_t size);
     const ang_viewer_settings *settings; /* to begin with; NULL: defaults; outlives the viewer */
-    const ang_preset *const *presets;    /* NULL at the end; outlive the viewer */
+    const ang_preset *const *presets;    /* NULL at the end; stay until one is saved or deleted */
     const char *font;                    /* TrueType file; NULL: none found */
     const char *version;
     int threads;   /* 0: all */

@@ -30,6 +30,13 @@ typedef enum ang_tool {
 } ang_tool;
 const char *ang_tool_name(ang_tool tool);
 
+/* What a range of HU selects of a slice, as a picture to lie over it. */
+typedef struct ang_slice_mark {
+    float low, high;  /* HU that it marks */
+    unsigned version; /* of the slice; 0: none */
+    ang_paint_texture texture;
+} ang_slice_mark;
+
 /* A slice's picture, kept until what it shows changes. */
 typedef struct ang_slice_picture {
     ang_slice_view view;
@@ -39,8 +46,31 @@ typedef struct ang_slice_picture {
     uint8_t *rgba;
     size_t room; /* pixels */
     bool filled;
+    unsigned version; /* counts what `hu` has been */
     ang_paint_texture texture;
+    ang_slice_mark mark;
 } ang_slice_picture;
+
+/* How far a picture may be off, in levels of 255 (core/error/estimate.h); NAN: not known. */
+typedef struct ang_picture_error {
+    unsigned version; /* of the picture; of another one it says nothing */
+    double levels, rms;
+    double not_before; /* seconds: when to try again after an interruption */
+} ang_picture_error;
+
+/* A fine picture that is not shown now. */
+typedef struct ang_kept_picture {
+    bool filled;
+    ang_image image;
+    ang_scene scene;
+    ang_transfer *transfer;
+    ang_document document;
+    int size[2];
+    double frame_ms;
+    ang_paint_texture texture;
+    bool judged;
+    ang_picture_error error; /* where judged */
+} ang_kept_picture;
 
 /* The volume rendering's. */
 typedef struct ang_volume_picture {
@@ -54,10 +84,14 @@ typedef struct ang_volume_picture {
     ang_document document;  /* that `image` shows */
     int size[2];            /* of the pane that `image` was made for */
     bool shown, refined;    /* there is an image; it is as fine as the pane */
-    double coarse_pixels;   /* as many as the budget of time allows; 0: not known yet */
-    bool warm;              /* a picture has been made by `renderer` */
-    double frame_ms;        /* of the last picture */
-    double asked_seconds;   /* when what it shows last changed */
+    unsigned version;       /* counts the images */
+    ang_picture_error error;
+    ang_kept_picture kept;
+    bool compared;        /* it shows, or is to show, the preset as it is saved */
+    double coarse_pixels; /* as many as the budget of time allows; 0: not known yet */
+    bool warm;            /* a picture has been made by `renderer` */
+    double frame_ms;      /* of the last picture */
+    double asked_seconds; /* when what it shows last changed */
     uint8_t *rgba;
     ang_paint_texture texture;
     char failure[1024]; /* why there is no picture; empty: there is */
@@ -85,6 +119,23 @@ typedef struct ang_shot {
     int frame;  /* that was drawn when it was asked for: the menu may still be in it */
     bool posed; /* it is taken of this frame, which names neither folders nor people */
 } ang_shot;
+
+/* Small pictures of the presets, in the panel's order. */
+typedef struct ang_thumbnails {
+    ang_paint_texture texture[ANG_THUMBNAILS];
+    bool made[ANG_THUMBNAILS]; /* or tried in vain */
+    double scroll;             /* of the strip, pixels */
+    int first, last;           /* seen in the strip */
+    char shown[64];            /* the preset that the strip was last scrolled to */
+} ang_thumbnails;
+
+/* Saving or deleting a preset. */
+typedef struct ang_preset_dialog {
+    bool open, deletes;
+    bool asked; /* whether what has this name may be replaced */
+    char name[64], description[240];
+    char problem[1024]; /* why it could not be done; empty: nothing */
+} ang_preset_dialog;
 
 typedef struct ang_viewer {
     const ang_viewer_host *host;
@@ -127,10 +178,12 @@ typedef struct ang_viewer {
     bool turns_about_crosshair; /* the hand on the 3D picture, else about the volume's centre */
     ang_measuring measuring;
 
-    ang_paint_texture thumbnail[ANG_THUMBNAILS]; /* of the presets, in the panel's order */
-    int thumbnails;                              /* made so far */
     bool help, notes, opening, browsing, corner_text, crosshair_shown, names_hidden;
     bool voxels_shown; /* slices without interpolation */
+    ang_thumbnails thumbnails;
+    ang_preset_dialog preset_dialog;
+    bool comparing;        /* the 3D pane shows the preset as it is saved: */
+    ang_document compared; /* what it then shows */
     char typed_path[1024];
     bool save_wanted; /* a picture of the pane, when refined */
     ang_pane save_pane;
@@ -138,9 +191,10 @@ typedef struct ang_viewer {
     char saved[1024];
     char message[1100]; /* on the status line */
     bool message_bad;
-    double message_until;           /* seconds */
-    ang_rect editor;                /* where the transfer function was plotted */
-    int point;                      /* selected in the editor, -1: none */
+    double message_until; /* seconds */
+    ang_rect editor;      /* where the transfer function was plotted */
+    int point;            /* chosen in the editor, of several the last; -1: none */
+    ang_editing editing;
     double editor_low, editor_high; /* HU shown */
     ang_histogram *histogram;       /* NULL: none */
     bool typing;                    /* a text field has the keyboard */
@@ -178,7 +232,6 @@ void ang_session_save(ang_viewer *viewer);
 const char *ang_volume_method_choice(const ang_viewer *viewer); /* "auto" or a name */
 
 /* saving.c */
-void ang_viewer_save_preset(ang_viewer *viewer);
 /* A picture of the window (-1) or of a pane as it is seen, writing included: of the next frame without a menu, the 3D
  * pane's once it is refined. */
 void ang_shot_ask(ang_viewer *viewer, int pane);
@@ -197,6 +250,11 @@ ang_slice_frame ang_slice_frame_of(const ang_viewer *viewer, ang_orientation ori
 double ang_slice_zoom_percent(const ang_viewer *viewer, ang_pane pane);
 /* The slice as a picture to be written. */
 bool ang_slice_image(ang_viewer *viewer, ang_orientation orientation, ang_image *image, ang_error *err);
+
+/* slice_mark.c */
+/* Draws over the slice's picture what the transfer-function editor selects, and says what it is; where nothing is to be
+ * shown it costs nothing. */
+void ang_slice_mark_show(ang_viewer *viewer, ang_slice_picture *picture, ang_rect rect);
 
 /* volume_pane.c, volume_picture.c */
 void ang_volume_pane(ang_viewer *viewer, ang_rect rect);
@@ -250,6 +308,20 @@ void ang_measures_draw_slice(ang_viewer *viewer, ang_pane pane, ang_rect rect, c
 /* `scene`: of the pane's size. */
 void ang_measures_draw_volume(ang_viewer *viewer, ang_rect rect, ang_scene scene);
 
+/* kept_picture.c */
+/* Where a comparison has begun or ended: the picture of the other side, if it still is `wanted`'s of this size, else
+ * none; the one that was shown is kept. */
+void ang_kept_picture_turn(ang_viewer *viewer, const ang_document *wanted, int width, int height);
+void ang_kept_picture_clear(ang_viewer *viewer);
+
+/* picture_error.c */
+/* Seconds until the error of the picture that is shown should be estimated; infinite where there is nothing to do. */
+double ang_picture_error_in(const ang_viewer *viewer);
+/* Estimates it, until input comes. */
+void ang_picture_error_find(ang_viewer *viewer);
+/* For the status line; empty where there is no fine picture. */
+void ang_picture_error_text(const ang_viewer *viewer, char *text, size_t size);
+
 /* overlay.c */
 void ang_pane_letters(ang_viewer *viewer, ang_rect rect, ang_vec3 right, ang_vec3 down);
 void ang_pane_bar(ang_viewer *viewer, ang_rect rect, double mm_per_pixel, bool at_centre);
@@ -265,7 +337,40 @@ void ang_messages(ang_viewer *viewer);
 void ang_panel(ang_viewer *viewer, ang_rect rect);
 void ang_cutting_panel(ang_viewer *viewer); /* cutting_panel.c */
 void ang_transfer_editor(ang_viewer *viewer);
+/* For another volume. */
 void ang_transfer_editor_start(ang_viewer *viewer);
+/* Keys are no longer the editor's once the pointer has come to a pane. After the panes of each frame. */
+void ang_transfer_editor_leave(ang_viewer *viewer);
+/* The range of HU: nearly all values of the volume; all values and points; narrower (factor < 1) or wider. */
+void ang_transfer_editor_show_data(ang_viewer *viewer);
+void ang_transfer_editor_show_all(ang_viewer *viewer);
+void ang_transfer_editor_zoom(ang_viewer *viewer, double about, double factor);
+/* This point alone; -1: none. */
+void ang_transfer_editor_choose(ang_viewer *viewer, int index);
+
+/* transfer_keys.c */
+bool ang_transfer_editor_has_keys(const ang_viewer *viewer);
+/* Gives it the keys, or takes them away. */
+void ang_transfer_editor_focus(ang_viewer *viewer);
+/* To the next point (by > 0) or the one before; `adds`: to those chosen. */
+void ang_transfer_editor_step(ang_viewer *viewer, int by, bool adds);
+void ang_transfer_editor_choose_all(ang_viewer *viewer);
+void ang_transfer_editor_delete(ang_viewer *viewer);
+void ang_transfer_editor_insert(ang_viewer *viewer);
+/* Whether the editor has taken an arrow key, or Esc. */
+bool ang_transfer_editor_key(ang_viewer *viewer, int key, unsigned modifiers);
+bool ang_transfer_editor_escape(ang_viewer *viewer);
+
+/* presets.c */
+void ang_presets_panel(ang_viewer *viewer);
+/* The next preset of the list, or the one before. */
+void ang_viewer_step_preset(ang_viewer *viewer, int by);
+/* What the 3D pane shows: the document, or with the preset as it is saved. Borrowed until the next call. */
+const ang_document *ang_viewer_shown_document(ang_viewer *viewer);
+
+/* preset_dialog.c */
+void ang_preset_dialog_open(ang_viewer *viewer, bool deletes);
+void ang_preset_dialog_show(ang_viewer *viewer);
 
 /* measures.c */
 void ang_measures_list(ang_viewer *viewer);
@@ -282,10 +387,18 @@ bool ang_measures_shown(const ang_viewer *viewer, int argument);
 /* thumbnails.c */
 /* The presets that can be chosen, own_preset first; at most ANG_THUMBNAILS. Returns their number. */
 int ang_presets(const ang_viewer *viewer, const ang_preset *presets[ANG_THUMBNAILS]);
+/* The index of the document's among them; -1: none. */
+int ang_preset_chosen(const ang_viewer *viewer, const ang_preset *const *presets, int count);
+/* A row of them in the panel, and all of them in a message. */
+void ang_thumbnails_strip(ang_viewer *viewer);
 void ang_thumbnails_show(ang_viewer *viewer);
+/* Whether one that is seen has no picture yet. */
 bool ang_thumbnails_wanted(const ang_viewer *viewer);
 /* Makes the next one. */
 void ang_thumbnails_step(ang_viewer *viewer);
+/* The presets are others: all pictures are made again. */
+void ang_thumbnails_renew(ang_viewer *viewer);
+/* Lets go of the pictures. Not while a frame is drawn. */
 void ang_thumbnails_clear(ang_viewer *viewer);
 
 /* actions.c, menus.c */

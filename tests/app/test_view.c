@@ -2,7 +2,6 @@
 #include "tests/core/fixtures.h"
 
 #include "io/load.h"
-#include "io/preset.h"
 
 #define FOLDER ANG_TEST_TMP "/view"
 #include "tests/app/viewer_hands.h"
@@ -256,13 +255,6 @@ static void a_transfer_function_is_edited(void **state) {
     expect_number("preset.points.1.opacity", 0.7, 0.01);
     hands("key ctrl+z key ctrl+z");
     expect_number("preset.points.5.hu", 350 + 3 * per_pixel, 1e-6);
-    hands("key ctrl+p");
-    expect_text("saved", "angioscope-preset-0001.json");
-    assert_int_equal(run("presets show " PICTURES "/angioscope-preset-0001.json"), 0);
-    ang_preset *saved = ang_preset_load(PICTURES "/angioscope-preset-0001.json", NULL);
-    assert_non_null(saved);
-    assert_close(saved->transfer->points[5].hu, 350 + 3 * per_pixel, 1e-9);
-    ang_preset_free(saved);
     hands("key ctrl+z");
     expect_number("preset.points.5.hu", 350, 0);
     expect_number("preset.points.5.opacity", 0.4, 0);
@@ -287,7 +279,7 @@ static void at_rest_it_sleeps(void **state) {
     (void)state;
     need_window();
     hands("mousemove 5 600");
-    nap(1000);
+    expect_true("at_rest");
     double before = processor_time();
     nap(2000);
     assert_true(processor_time() - before <= 0.02); /* two ticks: 1 % */

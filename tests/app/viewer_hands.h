@@ -149,6 +149,18 @@ static inline void expect_text(const char *path, const char *expected) {
     fail_msg("%s is '%s', not '%s'", path, value, expected);
 }
 
+/* The same for what is true or false. */
+static inline void expect_true(const char *path) {
+    for (int i = 0; i < 200; i++) {
+        cJSON *state = read_state();
+        bool is = cJSON_IsTrue(field(state, path));
+        cJSON_Delete(state);
+        if (is) return;
+        nap(50);
+    }
+    fail_msg("%s is not true", path);
+}
+
 /* Commands for xdotool. */
 static inline void hands(const char *format, ...) {
     char commands[512], line[600];
@@ -197,6 +209,7 @@ static inline int open_display(void) {
 #ifndef ANG_WITH_WINDOW
     skipped = "this build has no window";
 #endif
+    setenv("XDG_CONFIG_HOME", FOLDER "/config", 1); /* not what its user has */
     return skipped || start_server() ? 0 : -1;
 }
 

@@ -160,6 +160,21 @@ static void keys_go_up_where_the_focus_is_lost(void **state) {
     assert_false(input.key['A']);
 }
 
+static void letters_held_down_ask_for_nothing_new(void **state) {
+    (void)state;
+    static ang_event_queue queue;
+    queue = (ang_event_queue){0};
+    assert_false(ang_event_waits(&queue));
+    ang_event_push(&queue, &(ang_event){.kind = ANG_EVENT_KEY, .code = 'V', .down = true, .repeat = true});
+    ang_event_push(&queue, &(ang_event){.kind = ANG_EVENT_CHARACTER, .code = 'v', .repeat = true});
+    assert_false(ang_event_waits(&queue));
+    ang_event_push(&queue, &(ang_event){.kind = ANG_EVENT_KEY, .code = ANG_KEY_UP, .down = true, .repeat = true});
+    assert_true(ang_event_waits(&queue));
+    queue = (ang_event_queue){0};
+    ang_event_push(&queue, &(ang_event){.kind = ANG_EVENT_KEY, .code = 'V', .down = false});
+    assert_true(ang_event_waits(&queue));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(twenty_clicks_within_one_frame_all_arrive),
@@ -170,6 +185,7 @@ int main(void) {
         cmocka_unit_test(double_clicks_go_by_the_hand_not_by_frames),
         cmocka_unit_test(releases_survive_a_full_queue),
         cmocka_unit_test(keys_go_up_where_the_focus_is_lost),
+        cmocka_unit_test(letters_held_down_ask_for_nothing_new),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,6 +85,8 @@ void ang_messages(ang_viewer *viewer) {
         show_welcome(viewer);
     else if (viewer->notes)
         show_notes(viewer);
+    else if (viewer->preset_dialog.open)
+        ang_preset_dialog_show(viewer);
     else if (viewer->browsing)
         ang_thumbnails_show(viewer);
     ang_help(viewer);

@@ -3,32 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
-
-static void presets(ang_viewer *viewer) {
-    ang_gui *gui = viewer->gui;
-    ang_document *document = &viewer->document;
-    ang_gui_heading(gui, "PRESET");
-    const char *names[ANG_THUMBNAILS];
-    const ang_preset *all[ANG_THUMBNAILS];
-    int count = ang_presets(viewer, all), chosen = -1;
-    for (int i = 0; i < count; i++) {
-        names[i] = all[i]->name;
-        if (strcmp(names[i], document->preset) == 0) chosen = i;
-    }
-    double reset = ang_gui_px(gui, 56), browse = ang_gui_px(gui, 72), gap = ang_gui_px(gui, 8);
-    if (ang_gui_choice(gui, "##preset", names, count, &chosen, ang_gui_room(gui) - reset - browse - 2 * gap))
-        ang_viewer_choose_preset(viewer, all[chosen]);
-    if (chosen >= 0) ang_gui_tooltip(gui, all[chosen]->description);
-    ang_gui_same_line(gui);
-    if (ang_gui_button(gui, "Pictures", browse, true)) viewer->browsing = !viewer->browsing;
-    ang_gui_tooltip(gui, "Every preset as a small picture of this volume. Key B.");
-    ang_gui_same_line(gui);
-    if (ang_gui_button(gui, "Reset", reset, document->edited && chosen >= 0))
-        ang_viewer_choose_preset(viewer, all[chosen]);
-    ang_gui_tooltip(gui, "Back to the preset as it is saved");
-    ang_gui_text_dim(gui, "%s", document->edited ? "changed" : "as saved");
-}
 
 static void rendering(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
@@ -118,7 +92,7 @@ static void series(ang_viewer *viewer) {
 void ang_panel(ang_viewer *viewer, ang_rect rect) {
     ang_gui_area_begin(viewer->gui, "panel", rect, true);
     if (viewer->ready) {
-        presets(viewer);
+        ang_presets_panel(viewer);
         ang_transfer_editor(viewer);
         rendering(viewer);
         ang_cutting_panel(viewer);

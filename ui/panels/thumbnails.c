@@ -1,9 +1,12 @@
-/* Every preset as a small picture of this volume, to choose by eye. */
+/* Presets as small pictures of this volume, made one by one while the hands rest and kept as long as the volume. */
 #include "ui/viewer_private.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 128, HEIGHT = 96, COLUMNS = 5 }; /* at scale 1 */
+/* At scale 1. */
+enum { WIDTH = 128, HEIGHT = 96, COLUMNS = 5, SMALL_WIDTH = 92, SMALL_HEIGHT = 69, LINE = 18, BAR = 4 };
 
 int ang_presets(const ang_viewer *viewer, const ang_preset *presets[ANG_THUMBNAILS]) {
     int count = 0;
@@ -13,15 +16,35 @@ int ang_presets(const ang_viewer *viewer, const ang_preset *presets[ANG_THUMBNAI
     return count;
 }
 
-bool ang_thumbnails_wanted(const ang_viewer *viewer) {
+int ang_preset_chosen(const ang_viewer *viewer, const ang_preset *const *presets, int count) {
+    for (int i = 0; i < count; i++)
+        if (strcmp(presets[i]->name, viewer->document.preset) == 0) return i;
+    return -1;
+}
+
+/* The first one that is seen and has no picture yet; -1: none. */
+static int next_wanted(const ang_viewer *viewer) {
+    const ang_thumbnails *thumbnails = &viewer->thumbnails;
     const ang_preset *presets[ANG_THUMBNAILS];
-    return viewer->browsing && viewer->volume.renderer && viewer->thumbnails < ang_presets(viewer, presets);
+    int count = ang_presets(viewer, presets);
+    for (int i = 0; i < count; i++) {
+        bool seen = viewer->browsing || (i >= thumbnails->first && i <= thumbnails->last);
+        if (seen && !thumbnails->made[i]) return i;
+    }
+    return -1;
+}
+
+bool ang_thumbnails_wanted(const ang_viewer *viewer) {
+    const ang_volume_picture *volume = &viewer->volume;
+    return volume->renderer && volume->refined && !volume->failure[0] && next_wanted(viewer) >= 0;
 }
 
 void ang_thumbnails_step(ang_viewer *viewer) {
+    ang_thumbnails *thumbnails = &viewer->thumbnails;
     const ang_preset *presets[ANG_THUMBNAILS];
-    int count = ang_presets(viewer, presets), next = viewer->thumbnails;
-    if (next >= count) return;
+    ang_presets(viewer, presets);
+    int next = next_wanted(viewer);
+    if (next < 0) return;
     ang_document document = viewer->document;
     ang_document_take_preset(&document, presets[next]);
     document.view = ang_viewer_first_view;
@@ -29,50 +52,119 @@ void ang_thumbnails_step(ang_viewer *viewer) {
     document.clip = (ang_clip_plane){0};
     ang_error err = {0};
     bool made = ang_volume_thumbnail(viewer, &document, (int)ang_gui_px(viewer->gui, WIDTH),
-                                     (int)ang_gui_px(viewer->gui, HEIGHT), &viewer->thumbnail[next], &err);
+                                     (int)ang_gui_px(viewer->gui, HEIGHT), &thumbnails->texture[next], &err);
     /* One that cannot be drawn stays empty. */
-    if (made || err.code != ANG_INTERRUPTED) viewer->thumbnails++;
+    if (made || err.code != ANG_INTERRUPTED) thumbnails->made[next] = true;
+}
+
+void ang_thumbnails_renew(ang_viewer *viewer) {
+    for (int i = 0; i < ANG_THUMBNAILS; i++) viewer->thumbnails.made[i] = false;
 }
 
 void ang_thumbnails_clear(ang_viewer *viewer) {
-    for (int i = 0; i < viewer->thumbnails; i++) ang_painter_forget(viewer->painter, &viewer->thumbnail[i]);
-    viewer->thumbnails = 0;
-    viewer->browsing = false;
+    ang_thumbnails *thumbnails = &viewer->thumbnails;
+    for (int i = 0; i < ANG_THUMBNAILS; i++) ang_painter_forget(viewer->painter, &thumbnails->texture[i]);
+    ang_thumbnails_renew(viewer);
 }
 
-/* A picture with its name below; true where it was clicked. */
-static bool show_one(ang_viewer *viewer, const ang_preset *preset, int index) {
+/* `name` as far as it goes into `width`, cut off with an ellipsis. */
+static void fit(const ang_gui *gui, const char *name, double width, char *text, size_t size) {
+    snprintf(text, size, "%s", name);
+    for (size_t length = strlen(name); length > 0 && ang_gui_text_width(gui, text, true) > width; length--) {
+        /* Not within a character of UTF-8. */
+        while (length > 1 && ((unsigned char)name[length - 1] & 0xc0) == 0x80) length--;
+        snprintf(text, size, "%.*s\xe2\x80\xa6", (int)(length - 1), name);
+    }
+}
+
+/* A picture with its name below. */
+static void draw(ang_viewer *viewer, const ang_preset *preset, int index, ang_rect picture, bool pointed) {
     ang_gui *gui = viewer->gui;
-    double width = ang_gui_px(gui, WIDTH), height = ang_gui_px(gui, HEIGHT), line = ang_gui_px(gui, 20);
-    ang_canvas canvas;
-    ang_gui_canvas(gui, preset->name, width, height + line, &canvas);
-    ang_rect picture = {canvas.rect.x, canvas.rect.y, width, height};
+    char text[128];
     ang_gui_fill(gui, picture, ANG_INK(0, 0, 0, 255));
-    if (index < viewer->thumbnails) ang_gui_picture(gui, &viewer->thumbnail[index], picture);
+    if (viewer->thumbnails.made[index]) ang_gui_picture(gui, &viewer->thumbnails.texture[index], picture);
     bool chosen = strcmp(preset->name, viewer->document.preset) == 0;
-    bool lit = canvas.hovered || canvas.focused;
-    ang_ink border = chosen ? viewer->theme->accent : lit ? viewer->theme->text : viewer->theme->edge;
+    ang_ink border = chosen ? viewer->theme->accent : pointed ? viewer->theme->text : viewer->theme->edge;
     ang_gui_frame(gui, picture, border);
-    ang_gui_clip(gui, canvas.rect);
-    ang_gui_write(gui, picture.x + width / 2, picture.y + height + ang_gui_px(gui, 3), 0.5, true, false,
-                  chosen || lit ? viewer->theme->text : viewer->theme->dim, preset->name);
-    ang_gui_unclip(gui);
-    ang_gui_tooltip(gui, preset->description);
-    return canvas.activated || (canvas.clicked && canvas.released == ANG_BUTTON_LEFT);
+    ang_rect inner = {picture.x + 1, picture.y + 1, picture.width - 2, picture.height - 2};
+    if (chosen) ang_gui_frame(gui, inner, border);
+    fit(gui, preset->name, picture.width, text, sizeof text);
+    ang_gui_write(gui, picture.x + picture.width / 2, picture.y + picture.height + ang_gui_px(gui, 2), 0.5, true, false,
+                  chosen || pointed ? viewer->theme->text : viewer->theme->dim, text);
+}
+
+static void tell(ang_gui *gui, const ang_preset *preset) {
+    char text[640];
+    snprintf(text, sizeof text, "%s\n%s", preset->name, preset->description);
+    ang_gui_tooltip(gui, text);
 }
 
 void ang_thumbnails_show(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     const ang_preset *presets[ANG_THUMBNAILS];
-    int count = ang_presets(viewer, presets);
+    int count = ang_presets(viewer, presets), taken = -1;
+    double width = ang_gui_px(gui, WIDTH), height = ang_gui_px(gui, HEIGHT);
     ang_gui_message_begin(gui, "presets");
     for (int i = 0; i < count; i++) {
+        ang_canvas canvas;
         if (i % COLUMNS != 0) ang_gui_same_line(gui);
-        if (!show_one(viewer, presets[i], i)) continue;
-        ang_viewer_choose_preset(viewer, presets[i]);
-        viewer->browsing = false;
+        ang_gui_canvas(gui, presets[i]->name, width, height + ang_gui_px(gui, LINE), &canvas);
+        draw(viewer, presets[i], i, (ang_rect){canvas.rect.x, canvas.rect.y, width, height},
+             canvas.hovered || canvas.focused);
+        tell(gui, presets[i]);
+        if (canvas.activated || (canvas.clicked && canvas.released == ANG_BUTTON_LEFT)) taken = i;
     }
     ang_gui_gap(gui, ang_gui_px(gui, 2));
     ang_gui_text_dim(gui, "A click takes one; Esc or B closes this.");
     ang_gui_message_end(gui);
+    if (taken < 0) return;
+    ang_viewer_choose_preset(viewer, presets[taken]);
+    viewer->browsing = false;
+}
+
+/* Where the strip is scrolled to: by the wheel, a drag, or to what has just been chosen. */
+static void scroll(ang_viewer *viewer, const ang_canvas *canvas, int chosen, double pitch, double most) {
+    ang_thumbnails *thumbnails = &viewer->thumbnails;
+    if (strcmp(thumbnails->shown, viewer->document.preset) != 0) {
+        memcpy(thumbnails->shown, viewer->document.preset, sizeof thumbnails->shown);
+        double left = chosen * pitch, right = left + pitch - canvas->rect.width;
+        if (chosen >= 0) thumbnails->scroll = fmin(fmax(thumbnails->scroll, right), left);
+    }
+    if (canvas->held >= 0) thumbnails->scroll -= canvas->dx;
+    thumbnails->scroll -= canvas->wheel * pitch;
+    thumbnails->scroll = round(fmin(fmax(thumbnails->scroll, 0), fmax(most, 0)));
+}
+
+void ang_thumbnails_strip(ang_viewer *viewer) {
+    ang_gui *gui = viewer->gui;
+    ang_thumbnails *thumbnails = &viewer->thumbnails;
+    const ang_preset *presets[ANG_THUMBNAILS];
+    int count = ang_presets(viewer, presets), pointed = -1;
+    double width = ang_gui_px(gui, SMALL_WIDTH), height = ang_gui_px(gui, SMALL_HEIGHT);
+    double pitch = width + ang_gui_px(gui, 8), room = ang_gui_room(gui), all = count * pitch - ang_gui_px(gui, 8);
+    double bar = ang_gui_px(gui, BAR), line = ang_gui_px(gui, LINE);
+    ang_canvas canvas;
+    ang_gui_canvas(gui, "preset strip", room, height + line + bar, &canvas);
+    scroll(viewer, &canvas, ang_preset_chosen(viewer, presets, count), pitch, all - room);
+    double left = thumbnails->scroll;
+    thumbnails->first = (int)floor(left / pitch);
+    thumbnails->last = (int)floor((left + room - 1) / pitch);
+    double at = left + canvas.x;
+    int under = (int)floor(at / pitch);
+    if (canvas.hovered && canvas.y < height + line && under < count && at - under * pitch < width) pointed = under;
+    ang_gui_clip(gui, canvas.rect);
+    for (int i = thumbnails->first; i <= thumbnails->last && i < count; i++) {
+        ang_rect picture = {canvas.rect.x + i * pitch - left, canvas.rect.y, width, height};
+        draw(viewer, presets[i], i, picture, i == pointed);
+    }
+    if (all > room) {
+        double y = canvas.rect.y + height + line;
+        ang_gui_fill(gui, (ang_rect){canvas.rect.x, y, room, bar}, viewer->theme->grid);
+        ang_gui_fill(gui, (ang_rect){canvas.rect.x + left / all * room, y, room / all * room, bar},
+                     viewer->theme->bar_grip);
+    }
+    ang_gui_unclip(gui);
+    if (pointed >= 0) tell(gui, presets[pointed]);
+    if (pointed >= 0 && canvas.clicked && canvas.released == ANG_BUTTON_LEFT)
+        ang_viewer_choose_preset(viewer, presets[pointed]);
 }

@@ -148,6 +148,8 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect) {
         cell(viewer, &x, y, 110, true, text);
         snprintf(text, sizeof text, "%.0f ms, %s", volume->frame_ms, volume->refined ? "refined" : "coarse");
         cell(viewer, &x, y, 110, true, text);
+        ang_picture_error_text(viewer, text, sizeof text);
+        cell(viewer, &x, y, 132, true, text);
     }
     if (viewer->message[0] && !viewer->shot.posed) { /* it may name a folder */
         double right = rect.x + rect.width - ang_gui_px(gui, 12);

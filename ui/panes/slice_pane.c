@@ -50,6 +50,7 @@ static bool fill(ang_viewer *viewer, ang_slice_picture *picture, const ang_resli
     picture->filled = false;
     if (!make_room(picture, pixels, err)) return false;
     if (moved && !ang_reslice(viewer->study.volume, plane, viewer->host->threads, picture->hu, err)) return false;
+    if (moved) picture->version++;
     for (size_t i = 0; i < pixels; i++) {
         uint8_t grey = grey_of((double)picture->hu[i], document->window_centre, document->window_width);
         memset(picture->rgba + 4 * i, grey, 3);
@@ -67,6 +68,7 @@ static bool fill(ang_viewer *viewer, ang_slice_picture *picture, const ang_resli
 
 void ang_slice_picture_clear(ang_viewer *viewer, ang_slice_picture *picture) {
     ang_painter_forget(viewer->painter, &picture->texture);
+    ang_painter_forget(viewer->painter, &picture->mark.texture);
     free(picture->hu);
     free(picture->rgba);
     *picture = (ang_slice_picture){.view = ang_slice_view_default};
@@ -241,6 +243,7 @@ void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
         ang_gui_picture(viewer->gui, &picture->texture, rect);
     else
         ang_viewer_say(viewer, true, "%s", err.message);
+    ang_slice_mark_show(viewer, picture, rect);
     hover(viewer, pane, &canvas, &frame);
     ang_cutting_pane cutting = {rect, ang_pane_map_of_slice(&frame), &frame};
     ang_cutting_draw(viewer, &cutting, &canvas);

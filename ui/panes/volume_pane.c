@@ -111,7 +111,10 @@ static void write_corners(ang_viewer *viewer, ang_rect rect) {
     bool bent = document->shift_hu != 0 || document->stretch < 1 || document->stretch > 1;
     ang_crop_box box = ang_crop_box_of(document);
     bool cropped = document->crop && !ang_crop_box_whole(&box, viewer->study.volume);
-    snprintf(text, sizeof text, "%s%s, %s%s%s", document->preset, document->edited && !bent ? " (changed)" : "",
+    snprintf(text, sizeof text, "%s%s, %s%s%s", document->preset,
+             viewer->comparing           ? " (as saved)"
+             : document->edited && !bent ? " (changed)"
+                                         : "",
              ang_mode_name(document->mode), cropped ? ", cropped" : "",
              ang_clip_plane_given(&document->clip) ? ", clipped" : "");
     ang_pane_corner(viewer, rect, 0, 1, 0, text);

@@ -2,11 +2,10 @@
 #include "core/base/clock.h"
 #include "core/base/memory.h"
 #include "core/scene/annotation.h"
+#include "ui/panes/interruption.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,19 +46,22 @@ static void drop_renderer(ang_volume_picture *volume) {
 void ang_volume_picture_clear(ang_viewer *viewer) {
     ang_volume_picture *volume = &viewer->volume;
     int choice = volume->choice;
+    unsigned version = volume->version;
     drop_renderer(volume);
+    ang_kept_picture_clear(viewer);
     ang_transfer_free(volume->transfer);
     ang_objects_clear(&volume->objects);
     ang_image_clear(&volume->image);
     free(volume->rgba);
     ang_painter_forget(viewer->painter, &volume->texture);
-    *volume = (ang_volume_picture){.choice = choice};
+    *volume = (ang_volume_picture){.choice = choice, .version = version};
 }
 
 void ang_volume_set_method(ang_viewer *viewer, int choice) {
     ang_volume_picture *volume = &viewer->volume;
     if (choice == volume->choice) return;
     drop_renderer(volume);
+    ang_kept_picture_clear(viewer);
     volume->choice = choice;
     volume->shown = false;
 }
@@ -83,23 +85,6 @@ static bool make_renderer(ang_viewer *viewer, const ang_scene *scene, ang_error 
     volume->renderer = volume->method->create(volume->method->needs_gl ? gl : NULL, viewer->study.volume,
                                               &ang_render_options_default, err);
     return volume->renderer != NULL;
-}
-
-/* Stops a picture when input comes. Methods ask from any of their threads; events may be looked for only on the one
- * that opened the window, which is among them. */
-typedef struct interruption {
-    ang_window *window;
-    pthread_t thread;
-    atomic_bool came;
-} interruption;
-
-static bool going_on(void *context, const char *what, double fraction) {
-    (void)what;
-    (void)fraction;
-    interruption *input = context;
-    if (pthread_equal(pthread_self(), input->thread) && ang_window_pending(input->window))
-        atomic_store(&input->came, true);
-    return !atomic_load(&input->came);
 }
 
 /* The picture over black, as 8 bit, into `*rgba`, which grows. */
@@ -138,8 +123,8 @@ static bool draw(ang_viewer *viewer, ang_scene *scene, bool fine, ang_image *ima
     ang_render_options options = ang_render_options_default;
     options.threads = viewer->host->threads;
     if (!fine) options.step_voxels = coarse_step;
-    interruption input = {.window = viewer->window, .thread = pthread_self()};
-    ang_progress progress = {going_on, &input};
+    ang_interruption input;
+    ang_progress progress = ang_interruption_start(&input, viewer->window);
     double start = ang_now_ms();
     if (!make_renderer(viewer, scene, err) || !ang_image_create(image, scene->width, scene->height, err)) return false;
     bool first = !volume->warm;
@@ -169,16 +154,17 @@ static int scaled(int size, double scale) { return (int)fmax(round(size * scale)
 
 void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     ang_volume_picture *volume = &viewer->volume;
+    const ang_document *document = ang_viewer_shown_document(viewer);
     if (width < 1 || height < 1) return;
+    ang_kept_picture_turn(viewer, document, width, height);
     bool current = volume->shown && volume->size[0] == width && volume->size[1] == height &&
-                   ang_document_same_rendering(&volume->document, &viewer->document);
+                   ang_document_same_rendering(&volume->document, document);
     if (current && (!refine || volume->refined)) return;
     if (!current) volume->asked_seconds = ang_now_ms() / 1000;
     ang_error err = {0};
-    ang_transfer *transfer = ang_document_transfer(&viewer->document, &err);
+    ang_transfer *transfer = ang_document_transfer(document, &err);
     double scale = refine ? 1 : coarse_scale(volume, width, height);
-    ang_scene scene =
-        ang_volume_scene(viewer, &viewer->document, transfer, scaled(width, scale), scaled(height, scale));
+    ang_scene scene = ang_volume_scene(viewer, document, transfer, scaled(width, scale), scaled(height, scale));
     ang_image image = {0};
     ang_objects objects = {0};
     scene.objects = &objects;
@@ -198,10 +184,11 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     volume->image = image;
     volume->scene = scene;
     volume->scene.objects = &volume->objects;
-    volume->document = viewer->document;
+    volume->document = *document;
     volume->size[0] = width;
     volume->size[1] = height;
     volume->shown = true;
+    volume->version++;
     /* What failed is not tried again until something changes. */
     volume->refined = refine || !done;
     snprintf(volume->failure, sizeof volume->failure, "%s", done ? "" : err.message);
@@ -221,8 +208,8 @@ bool ang_volume_thumbnail(ang_viewer *viewer, const ang_document *document, int 
     ang_render_options options = ang_render_options_default;
     options.threads = viewer->host->threads;
     options.step_voxels = coarse_step;
-    interruption input = {.window = viewer->window, .thread = pthread_self()};
-    ang_progress progress = {going_on, &input};
+    ang_interruption input;
+    ang_progress progress = ang_interruption_start(&input, viewer->window);
     uint8_t *rgba = NULL;
     bool done = volume->method->render(volume->renderer, &scene, &options, &image, NULL, &progress, err) &&
                 show(viewer, &image, &rgba, texture, err);

@@ -33,6 +33,21 @@ void ang_document_take_preset(ang_document *document, const ang_preset *preset) 
     }
 }
 
+void ang_document_take_look(ang_document *document, const ang_document *from) {
+    memcpy(document->preset, from->preset, sizeof document->preset);
+    memcpy(document->points, from->points, sizeof document->points);
+    document->count = from->count;
+    document->unit_distance = from->unit_distance;
+    document->by_extinction = from->by_extinction;
+    document->edited = from->edited;
+    document->shift_hu = from->shift_hu;
+    document->stretch = from->stretch;
+    document->mode = from->mode;
+    document->shading = from->shading;
+    document->phong = from->phong;
+    document->iso_hu = from->iso_hu;
+}
+
 ang_transfer *ang_document_transfer(const ang_document *document, ang_error *err) {
     return ang_transfer_create(document->points, (size_t)document->count, document->unit_distance,
                                document->by_extinction, NULL, err);

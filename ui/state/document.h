@@ -36,6 +36,8 @@ typedef struct ang_document {
 /* Takes over everything of a preset but the window, which it takes where the preset shows values (mip, minip, mean).
  * Points beyond ANG_DOCUMENT_POINTS are left out evenly. */
 void ang_document_take_preset(ang_document *document, const ang_preset *preset);
+/* Takes over from another document all that a preset says, and leaves camera, windows and slices as they are. */
+void ang_document_take_look(ang_document *document, const ang_document *from);
 /* The transfer function. NULL with ANG_LIMIT. */
 ang_transfer *ang_document_transfer(const ang_document *document, ang_error *err);
 /* Moves the points of `from` by `shift` HU after spreading them by `stretch` (> 0) about the middle between the first

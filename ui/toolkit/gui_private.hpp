@@ -48,6 +48,7 @@ struct ang_gui {
     bool pressing;                   /* Enter went down on a widget and is still held */
     bool by_keys;                    /* the last that was done was done by a key */
     int waiting_step;                /* of Tab, for the next frame; 0: none */
+    int focused_frame;               /* in which a text field was given the keyboard */
     std::vector<ang_paint_vertex> vertices;
     std::vector<uint16_t> indices;
     std::vector<ang_paint_command> commands;

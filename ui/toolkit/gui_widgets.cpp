@@ -120,6 +120,7 @@ bool ang_gui_button(ang_gui *gui, const char *label, double width, bool enabled)
     ImGui::EndDisabled();
     return pressed;
 }
+bool ang_gui_pressed(const ang_gui *) { return ImGui::IsItemActive(); }
 bool ang_gui_checkbox(ang_gui *gui, const char *label, bool *value) {
     bool changed = ImGui::Checkbox(label, value);
     ang_gui_note_stop(gui);
@@ -179,8 +180,15 @@ bool ang_gui_number_field(ang_gui *gui, const char *name, double *value, const c
 
 bool ang_gui_text_field(ang_gui *gui, const char *name, char *text, size_t size, double width) {
     next_width(width);
-    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    bool entered = ImGui::InputText(name, text, size, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::IsWindowAppearing() && gui->focused_frame != ImGui::GetFrameCount()) {
+        ImGui::SetKeyboardFocusHere();
+        gui->focused_frame = ImGui::GetFrameCount();
+    }
+    /* What gets the keyboard by itself is chosen as a whole, to be typed over. */
+    int chosen = ImGui::IsMouseDown(ImGuiMouseButton_Left) ? 0 : ImGuiInputTextFlags_AutoSelectAll;
+    bool entered = ImGui::InputText(name, text, size, ImGuiInputTextFlags_EnterReturnsTrue | chosen);
+    /* What was entered may be refused or asked about: another Enter answers. */
+    if (entered) ImGui::SetKeyboardFocusHere(-1);
     ang_gui_note_stop(gui);
     return entered;
 }

@@ -120,6 +120,16 @@ bool ang_event_take(ang_event_queue *queue, ang_input *input) {
     return queue->count > 0;
 }
 
+bool ang_event_waits(const ang_event_queue *queue) {
+    for (size_t i = 0; i < queue->count; i++) {
+        const ang_event *event = &queue->event[(queue->first + i) % ANG_EVENT_CAPACITY];
+        bool letter = event->kind == ANG_EVENT_CHARACTER ||
+                      (event->kind == ANG_EVENT_KEY && event->code >= 'A' && event->code <= 'Z');
+        if (!letter || !event->repeat) return true;
+    }
+    return false;
+}
+
 const char *ang_key_name(int key, char buffer[8]) {
     static const char *const names[] = {"Esc",   "Enter", "Tab",  "Backspace", "Insert",    "Delete", "Left",
                                         "Right", "Up",    "Down", "Page up",   "Page down", "Home",   "End"};

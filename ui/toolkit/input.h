@@ -56,8 +56,8 @@ typedef enum ang_event_kind {
 typedef struct ang_event {
     ang_event_kind kind;
     double x, y;
-    int code; /* button, key or character (Unicode) */
-    bool down, repeat;
+    int code;           /* button, key or character (Unicode) */
+    bool down, repeat;  /* `repeat`: of a key that is held down, also of its character */
     unsigned modifiers; /* ANG_MOD_* held */
     double seconds;     /* steady clock */
 } ang_event;
@@ -104,6 +104,10 @@ void ang_event_push(ang_event_queue *queue, const ang_event *event);
  * down besides modifiers, since what has the keyboard may change with it. True where events
  * remain, which need another frame. */
 bool ang_event_take(ang_event_queue *queue, ang_input *input);
+
+/* Whether anything waits but letters that repeat because they are held down, with the characters that they give: these
+ * ask for nothing new. */
+bool ang_event_waits(const ang_event_queue *queue);
 
 /* A key by its name in lists of shortcuts: "F1", "Page up", "A". */
 const char *ang_key_name(int key, char buffer[8]);

@@ -15,6 +15,7 @@ struct ang_window {
     ang_event_queue queue;
     double x, y;         /* of the last move: where the pointer was when a button went down */
     unsigned modifiers;  /* ANG_MOD_* */
+    bool repeats;        /* the key that last went down repeats: so does the character after it */
     double asked, heard; /* seconds: when events were last asked for, and when all until then had come */
     bool damaged;        /* size or contents must be drawn again */
     char *dropped;
@@ -123,6 +124,7 @@ static void on_key(GLFWwindow *handle, int key, int scancode, int action, int mo
     unsigned own = modifier_key(key);
     unsigned held = modifiers_of(modifiers);
     window->modifiers = action == GLFW_RELEASE ? held & ~own : held | own;
+    window->repeats = action == GLFW_REPEAT;
     if (key == GLFW_KEY_UNKNOWN && !own) return;
     push(window, (ang_event){.kind = ANG_EVENT_KEY,
                              .code = own ? ANG_KEY_NONE : key_of(key, scancode),
@@ -131,7 +133,8 @@ static void on_key(GLFWwindow *handle, int key, int scancode, int action, int mo
 }
 
 static void on_character(GLFWwindow *handle, unsigned character) {
-    push(of(handle), (ang_event){.kind = ANG_EVENT_CHARACTER, .code = (int)character});
+    ang_window *window = of(handle);
+    push(window, (ang_event){.kind = ANG_EVENT_CHARACTER, .code = (int)character, .repeat = window->repeats});
 }
 
 static void on_focus(GLFWwindow *handle, int focused) {
@@ -265,7 +268,7 @@ void ang_window_wait(ang_window *window, double seconds) {
 
 bool ang_window_pending(ang_window *window) {
     ang_window_wait(window, 0);
-    return window->queue.count > 0 || window->damaged || glfwWindowShouldClose(window->handle);
+    return ang_event_waits(&window->queue) || window->damaged || glfwWindowShouldClose(window->handle);
 }
 
 void ang_window_wake(void) { glfwPostEmptyEvent(); }

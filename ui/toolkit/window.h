@@ -22,7 +22,8 @@ ang_gl *ang_window_gl(ang_window *window);
 bool ang_window_input(ang_window *window, ang_input *input);
 /* Sleeps until something happens, at most `seconds` (infinite: no limit); returns at once where events remain. */
 void ang_window_wait(ang_window *window, double seconds);
-/* Looks for events without sleeping: whether something has happened that a frame should see. */
+/* Looks for events without sleeping: whether something has happened that a frame should see,
+ * other than letters that repeat. */
 bool ang_window_pending(ang_window *window);
 /* Ends a wait. From any thread. */
 void ang_window_wake(void);
