@@ -143,7 +143,7 @@ bool ang_view_state_of(const ang_viewer_state *shown, const ang_load_options *da
     ang_load_report_name(shown->study->handle, name);
     copy_window(shown, state);
     state->preset = preset_of(shown->document, err);
-    bool made = state->preset && copy_text(shown->path, &state->input_path, err) &&
+    bool made = state->preset && copy_text(shown->path[0] ? shown->path : NULL, &state->input_path, err) &&
                 copy_text(name, &state->input_name, err) && copy_text(data_options->raw_dims, &state->raw_dims, err) &&
                 copy_text(data_options->raw_type, &state->raw_type, err) &&
                 copy_text(data_options->raw_spacing, &state->raw_spacing, err) && add_render_options(shown, state, err);

@@ -36,7 +36,7 @@ typedef enum ang_pane { ANG_PANE_AXIAL, ANG_PANE_CORONAL, ANG_PANE_SAGITTAL, ANG
 typedef struct ang_viewer_state {
     const char *phase; /* "empty", "loading", "ready", "failed" */
     const ang_study *study;
-    const char *path; /* that the study was read from */
+    const char *path; /* that the study was read from; "": no single one */
     const ang_document *document;
     ang_vec3 crosshair; /* LPS mm */
     struct {
