@@ -7,6 +7,11 @@
 /* The file's name without its folders: what messages call it. */
 const char *ang_base_name(const char *path);
 
+/* Whether the path is a folder, which may hold DICOM, or a DICOM file. */
+bool ang_is_dicom(const char *path);
+/* A report of which nothing is known yet. */
+void ang_load_report_start(ang_load_report *report);
+
 /* Whether the file begins like NIfTI-1, gzipped or not. */
 bool ang_nifti_probe(const char *path);
 /* As ang_load, for NIfTI-1 (.nii, .nii.gz, or .hdr beside .img). Affine from sform, else qform, else pixdim; RAS to

@@ -101,7 +101,7 @@ static ang_volume *dispatch(const char *path, const ang_load_options *options, a
     }
     if (folder || ang_dicom_probe(path)) {
         if (!refuse_raw_options(label, folder ? "a folder" : "DICOM", options, err)) return NULL;
-        return ang_dicom_load(path, options, report, progress, err);
+        return ang_dicom_load(&path, 1, options, report, progress, err);
     }
     if (ang_nifti_probe(path)) {
         if (!refuse_raw_options(label, "NIfTI-1", options, err) || !refuse_other_series(label, options, err))
@@ -162,23 +162,51 @@ bool ang_load_reads(const char *input, const char *path) {
     return same;
 }
 
-ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load_report *report,
-                     const ang_progress *progress, ang_error *err) {
-    static const ang_load_options defaults = {0};
-    ang_error own;
-    if (!err) err = &own;
-    if (!options) options = &defaults;
-    *err = (ang_error){0};
+bool ang_is_dicom(const char *path) {
+    struct stat status;
+    bool there = stat(path, &status) == 0;
+    return there && (S_ISDIR(status.st_mode) || (S_ISREG(status.st_mode) && ang_dicom_probe(path)));
+}
+
+/* Several paths: DICOM, or the first that is something else and can be told. */
+static ang_volume *dispatch_all(const char *const *paths, size_t count, const ang_load_options *options,
+                                ang_load_report *report, const ang_progress *progress, ang_error *err) {
+    bool dicom = false;
+    size_t other = count;
+    for (size_t i = 0; i < count && !dicom; i++) {
+        dicom = ang_is_dicom(paths[i]);
+        if (other == count && (ang_nifti_probe(paths[i]) || ang_raw_probe(paths[i], options))) other = i;
+    }
+    if (dicom && refuse_raw_options(ang_base_name(paths[0]), "DICOM", options, err))
+        return ang_dicom_load(paths, count, options, report, progress, err);
+    if (dicom) return NULL;
+    ang_volume *volume = dispatch(paths[other < count ? other : 0], options, report, progress, err);
+    if (volume) ang_notes_add(&report->assumptions, "of %zu files, which are no DICOM, one is shown", count);
+    return volume;
+}
+
+void ang_load_report_start(ang_load_report *report) {
     *report = (ang_load_report){.tilt_nominal_deg = NAN,
                                 .window_centre = NAN,
                                 .window_width = NAN,
                                 .slope = NAN,
                                 .intercept = NAN,
                                 .padding_found_hu = NAN};
-    ang_volume *volume = dispatch(path, options, report, progress, err);
+}
+
+ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_options *options,
+                         ang_load_report *report, const ang_progress *progress, ang_error *err) {
+    static const ang_load_options defaults = {0};
+    ang_error own;
+    if (!err) err = &own;
+    if (!options) options = &defaults;
+    *err = (ang_error){0};
+    ang_load_report_start(report);
+    ang_volume *volume = count == 1 ? dispatch(paths[0], options, report, progress, err)
+                                    : dispatch_all(paths, count, options, report, progress, err);
     if (!volume) return NULL;
     *err = (ang_error){0};
-    if (!check_numbers(volume, ang_base_name(path), err)) {
+    if (!check_numbers(volume, ang_base_name(paths[0]), err)) {
         ang_volume_free(volume);
         return NULL;
     }
@@ -189,4 +217,9 @@ ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load
         return NULL;
     }
     return volume;
+}
+
+ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load_report *report,
+                     const ang_progress *progress, ang_error *err) {
+    return ang_load_all(&path, 1, options, report, progress, err);
 }

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/notes.h"
 #include "core/base/progress.h"
+#include "core/volume/raw_slice.h"
 #include "core/volume/volume.h"
 
 #include <stdint.h>
@@ -19,6 +20,7 @@ typedef struct ang_load_options {
     const char *raw_type;    /* --raw-type u8 | i8 | u16 | i16 | f32, little endian */
     const char *raw_spacing; /* --raw-spacing "X,Y,Z" in mm; default 1,1,1 */
     int threads;             /* 0: all */
+    ang_slice_sink slices;   /* is given the slices while they are read */
     bool strict;             /* any warning is an error (ANG_GEOMETRY) */
 } ang_load_options;
 
@@ -29,6 +31,7 @@ typedef struct ang_series_info {
     char *description; /* SeriesDescription: may identify a patient */
     char *patient;     /* PatientName as DICOM writes it: identifies; NULL: the format has none */
     char *uid;         /* SeriesInstanceUID: identifies */
+    char date[11];     /* of the acquisition, "2024-05-17": may identify a patient; empty where none is given */
     int width, height, slices;
     double spacing_mm[3]; /* along rows, columns and the normal: the mean distance of its slices (dicom-rules 4) */
     bool loadable;
@@ -82,6 +85,11 @@ bool ang_load_report_hounsfield(const ang_load_report *report);
  * that cannot be read costs a warning about it where others of its series can; its base name is the note's `file`. */
 ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load_report *report,
                      const ang_progress *progress, ang_error *err);
+
+/* The same for several files and folders, `count` >= 1, taken as one input: the DICOM files at and below all of them;
+ * where there are none, the first that is of another format, with a note about the rest. */
+ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_options *options,
+                         ang_load_report *report, const ang_progress *progress, ang_error *err);
 
 /* Whether loading `input` reads the file `path`: it is the input, a raw input's sidecar or a DICOM file in the folder.
  * To be asked before `path` is overwritten. */

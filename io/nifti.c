@@ -114,7 +114,7 @@ static char *voxel_file(const char *path, const nifti_1_header *header) {
 static ang_volume *load_image(const nifti_image *image, const char *voxels, const char *label,
                               const ang_load_options *options, ang_load_report *report, const ang_progress *progress,
                               ang_error *err) {
-    ang_sample_source source = {.path = voxels, .label = label, .slope = 1};
+    ang_sample_source source = {.path = voxels, .label = label, .slope = 1, .slices = options->slices};
     if (!sample_type(image->datatype, &source.type)) {
         ang_fail(err, ANG_INPUT, "%s: data type %d (%s) is not read: it must be a whole or floating-point number",
                  label, image->datatype, nifti_datatype_string(image->datatype));

@@ -157,8 +157,12 @@ ang_volume *ang_raw_load(const char *path, const ang_load_options *options, ang_
     snprintf(report->format, sizeof report->format, "raw");
     raw_form form;
     if (!find_form(path, options, &form, report, err)) return NULL;
-    ang_sample_source source = {
-        .path = path, .label = ang_base_name(path), .type = form.type, .slope = 1, .exact_length = true};
+    ang_sample_source source = {.path = path,
+                                .label = ang_base_name(path),
+                                .type = form.type,
+                                .slope = 1,
+                                .exact_length = true,
+                                .slices = options->slices};
     memcpy(source.dims, form.dims, sizeof form.dims);
     ang_volume *volume = ang_samples_read(&source, options->threads, report, progress, err);
     if (!volume) return NULL;

@@ -4,6 +4,7 @@
 #include "io/text.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -59,82 +60,121 @@ static char side(ang_vec3 d) {
     return d.z > 0 ? 'H' : 'F';
 }
 
+/* Adds to what is in `text`, as far as there is room. */
+static void append(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void append(char *text, size_t size, const char *format, ...) {
+    size_t used = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + used, size - used, format, args);
+    va_end(args);
+}
+
 /* Slices as they were read, and where they are not the volume's planes, how these were made of them. */
-static void print_slices(FILE *out, const ang_volume *volume, const ang_load_report *report) {
-    fprintf(out, "  slices       %d read", report->slices_read);
+static void add_read_slices(const ang_volume *volume, const ang_load_report *report, ang_facts *facts) {
+    char text[256] = "";
+    append(text, sizeof text, "%d read", report->slices_read);
     if (report->slices_duplicate)
-        fprintf(out, ", %d duplicate%s dropped", report->slices_duplicate, ang_plural(report->slices_duplicate));
-    fprintf(out, "\n");
+        append(text, sizeof text, ", %d duplicate%s dropped", report->slices_duplicate,
+               ang_plural(report->slices_duplicate));
+    ang_facts_add(facts, "slices", "%s", text);
     if (report->slice_gap_median_mm > 0) {
-        fprintf(out, "  distances    %.3f to %.3f mm, median %.3f mm", report->slice_gap_min_mm,
-                report->slice_gap_max_mm, report->slice_gap_median_mm);
-        if (report->gap_count) fprintf(out, ", mean %.3f mm", report->series[report->chosen].spacing_mm[2]);
-        fprintf(out, "\n");
+        snprintf(text, sizeof text, "%.3f to %.3f mm, median %.3f mm", report->slice_gap_min_mm,
+                 report->slice_gap_max_mm, report->slice_gap_median_mm);
+        if (report->gap_count)
+            append(text, sizeof text, ", mean %.3f mm", report->series[report->chosen].spacing_mm[2]);
+        ang_facts_add(facts, "distances", "%s", text);
     }
     for (size_t i = 0; i < report->gap_count; i++) {
         const ang_gap *gap = &report->gaps[i];
-        fprintf(out, "    after slice %d: %.3f mm", gap->after + 1, gap->mm);
+        snprintf(text, sizeof text, "after slice %d: %.3f mm, ", gap->after + 1, gap->mm);
         if (gap->missing)
-            fprintf(out, ", %d missing\n", gap->missing);
+            append(text, sizeof text, "%d missing", gap->missing);
         else
-            fprintf(out, ", irregular\n");
+            append(text, sizeof text, "irregular");
+        ang_facts_add(facts, "", "%s", text);
     }
+    double distance = ang_volume_slice_distance(volume);
     if (report->resampled)
-        fprintf(out, "  planes       %d in the volume, %.3f mm apart: resampled from the %d slices read\n",
-                volume->dims[2], ang_volume_slice_distance(volume), report->slices_read);
+        ang_facts_add(facts, "planes", "%d in the volume, %.3f mm apart: resampled from the %d slices read",
+                      volume->dims[2], distance, report->slices_read);
     else if (report->slices_missing)
-        fprintf(out, "  planes       %d in the volume, %.3f mm apart: the %d slices read and %d interpolated\n",
-                volume->dims[2], ang_volume_slice_distance(volume), report->slices_read, report->slices_missing);
+        ang_facts_add(facts, "planes", "%d in the volume, %.3f mm apart: the %d slices read and %d interpolated",
+                      volume->dims[2], distance, report->slices_read, report->slices_missing);
 }
 
-static void print_geometry(FILE *out, const ang_volume *volume, const ang_load_report *report) {
-    fprintf(out, "Geometry\n");
-    fprintf(out, "  size         %d x %d x %d voxels\n", volume->dims[0], volume->dims[1], volume->dims[2]);
-    fprintf(out, "  voxel        %.4f x %.4f x %.4f mm\n", ang_volume_spacing(volume, 0), ang_volume_spacing(volume, 1),
-            ang_volume_slice_distance(volume));
+static void add_geometry_facts(const ang_volume *volume, const ang_load_report *report, ang_facts *facts) {
+    ang_facts_heading(facts, "Geometry");
+    ang_facts_add(facts, "size", "%d x %d x %d voxels", volume->dims[0], volume->dims[1], volume->dims[2]);
+    ang_facts_add(facts, "voxel", "%.4f x %.4f x %.4f mm", ang_volume_spacing(volume, 0), ang_volume_spacing(volume, 1),
+                  ang_volume_slice_distance(volume));
     ang_vec3 axis[3];
     for (int i = 0; i < 3; i++) axis[i] = ang_mat4_column(&volume->affine, i);
-    fprintf(out, "  axes         columns run to %c, rows to %c, slices to %c\n", side(axis[0]), side(axis[1]),
-            side(axis[2]));
-    fprintf(out, "  first voxel  %.2f, %.2f, %.2f mm (left, posterior, head)\n", volume->affine.m[0][3],
-            volume->affine.m[1][3], volume->affine.m[2][3]);
-    fprintf(out, "  gantry tilt  %.2f degrees%s", report->tilt_deg, report->tilt_deg > 0 ? ", kept as a shear" : "");
-    if (isfinite(report->tilt_nominal_deg)) fprintf(out, " (the scanner says %.2f)", report->tilt_nominal_deg);
-    fprintf(out, "\n");
-    print_slices(out, volume, report);
+    ang_facts_add(facts, "axes", "columns run to %c, rows to %c, slices to %c", side(axis[0]), side(axis[1]),
+                  side(axis[2]));
+    ang_facts_add(facts, "first voxel", "%.2f, %.2f, %.2f mm (left, posterior, head)", volume->affine.m[0][3],
+                  volume->affine.m[1][3], volume->affine.m[2][3]);
+    char tilt[96];
+    snprintf(tilt, sizeof tilt, "%.2f degrees%s", report->tilt_deg, report->tilt_deg > 0 ? ", kept as a shear" : "");
+    if (isfinite(report->tilt_nominal_deg))
+        append(tilt, sizeof tilt, " (the scanner says %.2f)", report->tilt_nominal_deg);
+    ang_facts_add(facts, "gantry tilt", "%s", tilt);
+    add_read_slices(volume, report, facts);
 }
 
-static void print_values(FILE *out, const ang_volume *volume, const ang_load_report *report) {
+static void add_padding(const ang_volume *volume, const ang_load_report *report, const char *unit, ang_facts *facts) {
+    char text[192];
+    if (volume->padding_count == 0) return;
+    snprintf(text, sizeof text, "%g%s (%s)", report->padding_hu, unit,
+             report->padding_declared ? "declared" : "found in the corners");
+    if (report->padding_declared && report->padding_found)
+        append(text, sizeof text, " and %g%s (found in the corners)", report->padding_found_hu, unit);
+    ang_facts_add(facts, "padding", "%s, %.1f %% of the voxels, shown as %g%s", text,
+                  100.0 * (double)volume->padding_count / (double)ang_volume_count(volume),
+                  ang_volume_hu(volume, ang_volume_padding_value(volume)), unit);
+}
+
+static void add_value_facts(const ang_volume *volume, const ang_load_report *report, ang_facts *facts) {
     bool hounsfield = ang_load_report_hounsfield(report);
     const char *unit = hounsfield ? " HU" : "";
-    fprintf(out, "Values\n");
-    fprintf(out, "  range        %g to %g%s%s\n", ang_volume_hu(volume, volume->minimum),
-            ang_volume_hu(volume, volume->maximum), unit, report->resampled ? ", after resampling" : "");
+    ang_facts_heading(facts, "Values");
+    ang_facts_add(facts, "range", "%g to %g%s%s", ang_volume_hu(volume, volume->minimum),
+                  ang_volume_hu(volume, volume->maximum), unit, report->resampled ? ", after resampling" : "");
     /* Of the values that the file holds where one map does for all, else of the volume's own. */
     bool common = isfinite(report->slope);
     double slope = common ? report->slope : volume->slope, intercept = common ? report->intercept : volume->intercept;
-    fprintf(out, "  %-12s = %.10g x %s %c %.10g%s; stored in %d bits, %s\n", hounsfield ? "HU" : "value", slope,
-            common ? "stored" : "the volume's value", intercept < 0 ? '-' : '+', fabs(intercept),
-            common ? "" : ", as slices have different rescale", report->bits_stored,
-            report->signed_stored ? "signed" : "unsigned");
-    if (volume->padding_count > 0) {
-        fprintf(out, "  padding      %g%s (%s)", report->padding_hu, unit,
-                report->padding_declared ? "declared" : "found in the corners");
-        if (report->padding_declared && report->padding_found)
-            fprintf(out, " and %g%s (found in the corners)", report->padding_found_hu, unit);
-        fprintf(out, ", %.1f %% of the voxels, shown as %g%s\n",
-                100.0 * (double)volume->padding_count / (double)ang_volume_count(volume),
-                ang_volume_hu(volume, ang_volume_padding_value(volume)), unit);
-    }
+    ang_facts_add(facts, hounsfield ? "HU" : "value", "= %.10g x %s %c %.10g%s; stored in %d bits, %s", slope,
+                  common ? "stored" : "the volume's value", intercept < 0 ? '-' : '+', fabs(intercept),
+                  common ? "" : ", as slices have different rescale", report->bits_stored,
+                  report->signed_stored ? "signed" : "unsigned");
+    add_padding(volume, report, unit, facts);
     if (report->rescale_error_hu > 0)
-        fprintf(out, "  rescale      off by up to %.3g%s\n", report->rescale_error_hu, unit);
-    if (report->quantisation_hu > 0) fprintf(out, "  quantised    in steps of %.4g%s\n", report->quantisation_hu, unit);
+        ang_facts_add(facts, "rescale", "off by up to %.3g%s", report->rescale_error_hu, unit);
+    if (report->quantisation_hu > 0)
+        ang_facts_add(facts, "quantised", "in steps of %.4g%s", report->quantisation_hu, unit);
     if (report->nan_count || report->inf_count)
-        fprintf(out, "  not numbers  %llu NaN, %llu infinite\n", (unsigned long long)report->nan_count,
-                (unsigned long long)report->inf_count);
+        ang_facts_add(facts, "not numbers", "%llu NaN, %llu infinite", (unsigned long long)report->nan_count,
+                      (unsigned long long)report->inf_count);
     if (isfinite(report->window_centre) && isfinite(report->window_width))
-        fprintf(out, "  window       centre %g, width %g%s\n", report->window_centre, report->window_width, unit);
-    fprintf(out, "  checksum     %08x (CRC-32 of the stored values)\n", (unsigned)report->stored_crc32);
+        ang_facts_add(facts, "window", "centre %g, width %g%s", report->window_centre, report->window_width, unit);
+    ang_facts_add(facts, "checksum", "%08x (CRC-32 of the stored values)", (unsigned)report->stored_crc32);
+}
+
+void ang_load_report_facts(const ang_volume *volume, const ang_load_report *report, ang_facts *facts) {
+    add_geometry_facts(volume, report, facts);
+    add_value_facts(volume, report, facts);
+}
+
+static void print_facts(FILE *out, const ang_facts *facts) {
+    for (size_t i = 0; i < facts->count; i++) {
+        const ang_fact *fact = &facts->fact[i];
+        if (!fact->value)
+            fprintf(out, "%s\n", fact->name);
+        else if (fact->name[0])
+            fprintf(out, "  %-12s %s\n", fact->name, fact->value);
+        else
+            fprintf(out, "    %s\n", fact->value);
+    }
 }
 
 void ang_load_report_print(FILE *out, const ang_volume *volume, const ang_load_report *report, bool keep_phi) {
@@ -143,8 +183,10 @@ void ang_load_report_print(FILE *out, const ang_volume *volume, const ang_load_r
     fprintf(out, "Input          %s, %s\n", report->format[0] ? report->format : "?", volume ? name : "not loaded");
     if (report->series_count) print_series(out, volume, report, keep_phi);
     if (volume) {
-        print_geometry(out, volume, report);
-        print_values(out, volume, report);
+        ang_facts facts = {0};
+        ang_load_report_facts(volume, report, &facts);
+        print_facts(out, &facts);
+        ang_facts_clear(&facts);
     }
     print_notes(out, "Assumed", &report->assumptions, keep_phi);
     print_notes(out, "Warnings", &report->warnings, keep_phi);

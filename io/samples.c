@@ -101,6 +101,24 @@ static void store(const reading *reading, size_t length, const quantiser *q, uin
     }
 }
 
+/* The last plane that is complete once `done` samples of the volume are, where it was not before. */
+static void show_plane(const ang_sample_source *source, const quantiser *q, const uint16_t *out, size_t before,
+                       size_t done) {
+    size_t plane = (size_t)source->dims[0] * (size_t)source->dims[1], complete = done / plane;
+    if (!source->slices.take || complete == before / plane) return;
+    ang_raw_slice slice = {.values = out + (complete - 1) * plane,
+                           .width = source->dims[0],
+                           .height = source->dims[1],
+                           .slope = source->slope * q->step,
+                           .intercept = source->slope * q->low + source->intercept,
+                           .window_centre = NAN,
+                           .window_width = NAN,
+                           .pixel_aspect = 1,
+                           .index = complete - 1,
+                           .count = (size_t)source->dims[2]};
+    source->slices.take(source->slices.context, &slice);
+}
+
 /* One pass over the file: scans into `scanned`, or stores into `out`. */
 static bool pass(const reading *reading, quantiser *scanned, const quantiser *q, uint16_t *out, ang_error *err) {
     const ang_sample_source *source = reading->source;
@@ -122,6 +140,7 @@ static bool pass(const reading *reading, quantiser *scanned, const quantiser *q,
             scan(reading, length, scanned);
         else
             store(reading, length, q, out + done);
+        if (out) show_plane(source, q, out, done, done + length);
         done += length;
         double share = reading->from + reading->share * (double)done / (double)reading->count;
         if (!ang_progress_update(reading->progress, reading->what, share))

@@ -27,6 +27,7 @@ typedef struct ang_sample_source {
     bool big_endian;
     double slope, intercept; /* HU = slope * sample + intercept; slope not 0 */
     bool exact_length;       /* bytes behind the voxels are worth a warning */
+    ang_slice_sink slices;   /* is given some of the planes while they are read */
 } ang_sample_source;
 
 /* Bytes of one sample. */

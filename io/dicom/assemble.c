@@ -46,6 +46,14 @@ static void measure(const uint16_t *data, size_t count, decoded *slice) {
     slice->padding_count = ang_mask_count(data, count, range, &slice->least, &slice->greatest);
 }
 
+static void show_slice(const ang_dicom_stack *stack, size_t index, const uint16_t *data) {
+    if (!stack->sink.take) return;
+    ang_raw_slice slice = ang_dicom_raw_slice(&stack->slices[stack->order[index]], data);
+    slice.index = index;
+    slice.count = stack->count;
+    stack->sink.take(stack->sink.context, &slice);
+}
+
 static void decode_slices(void *context, size_t begin, size_t end, int worker) {
     (void)worker;
     decode_job *job = context;
@@ -66,6 +74,7 @@ static void decode_slices(void *context, size_t begin, size_t end, int worker) {
         out->map = ang_dicom_map_of(slice);
         out->has_padding = ang_dicom_padding(slice, &out->padding_first, &out->padding_last);
         measure(data, plane, out);
+        show_slice(stack, i, data);
         double share = (double)(atomic_fetch_add(&job->done, 1) + 1) / (double)stack->count;
         if (!ang_progress_update(job->progress, "reading slices", share)) atomic_store(&job->stop, true);
     }

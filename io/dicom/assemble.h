@@ -3,6 +3,7 @@
 #define ANG_DICOM_ASSEMBLE_H
 
 #include "core/base/progress.h"
+#include "core/volume/raw_slice.h"
 #include "io/dicom/geometry.h"
 
 /* What ang_dicom_assemble works on; all borrowed. */
@@ -14,6 +15,7 @@ typedef struct ang_dicom_stack {
     const char *const *labels; /* base names of these */
     const ang_dicom_grid *grid;
     int threads;
+    ang_slice_sink sink;
 } ang_dicom_stack;
 
 /* The volume of `stack`, with the padding, rescale and checksum fields of `report` filled in. Where files cannot be

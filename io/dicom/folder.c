@@ -48,7 +48,10 @@ static bool add_path(ang_dicom_folder *folder, size_t *capacity, char *path, ang
 }
 
 /* Folders below are followed, links to folders are not: they may lead back here. */
-static bool list_files(const char *path, ang_dicom_folder *folder, size_t *capacity, int depth, ang_error *err) {
+static bool list_files(const char *path, ang_dicom_folder *folder, size_t *capacity, int depth,
+                       const ang_progress *progress, ang_error *err) {
+    if (!ang_progress_update(progress, "reading headers", 0))
+        return ang_fail(err, ANG_INTERRUPTED, "interrupted while looking for files");
     DIR *directory = opendir(path);
     if (!directory) {
         if (depth > 0) return true; /* a folder that we may not enter holds nothing for us */
@@ -67,7 +70,7 @@ static bool list_files(const char *path, ang_dicom_folder *folder, size_t *capac
             if (known && S_ISDIR(status.st_mode) && type == DT_UNKNOWN) type = DT_DIR;
         }
         if (full && type == DT_DIR) {
-            if (depth < deepest) ok = list_files(full, folder, capacity, depth + 1, err);
+            if (depth < deepest) ok = list_files(full, folder, capacity, depth + 1, progress, err);
             free(full);
         } else if (full && type != DT_REG) {
             free(full);
@@ -123,20 +126,36 @@ static void sum_up(ang_dicom_folder *folder, header_job *job, ang_notes *warning
                       ang_plural((long long)(folder->broken - most_warnings)));
 }
 
-bool ang_dicom_read_folder(const char *path, int threads, ang_dicom_folder *folder, ang_notes *warnings,
-                           const ang_progress *progress, ang_error *err) {
-    *folder = (ang_dicom_folder){0};
+/* The files at and below the paths, sorted, each once. */
+static bool find_files(const char *const *paths, size_t count, ang_dicom_folder *folder, const ang_progress *progress,
+                       ang_error *err) {
     struct stat status;
-    size_t capacity = 0;
-    if (stat(path, &status) != 0) return ang_fail(err, ANG_INPUT, "%s: %s", path, strerror(errno));
-    bool ok = S_ISDIR(status.st_mode) ? list_files(path, folder, &capacity, 0, err)
-                                      : add_path(folder, &capacity, strdup(path), err);
-    if (ok && folder->count == 0) ok = ang_fail(err, ANG_INPUT, "%s: the folder is empty", path);
-    if (!ok) {
+    size_t capacity = 0, kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (stat(paths[i], &status) != 0) return ang_fail(err, ANG_INPUT, "%s: %s", paths[i], strerror(errno));
+        bool ok = S_ISDIR(status.st_mode) ? list_files(paths[i], folder, &capacity, 0, progress, err)
+                                          : add_path(folder, &capacity, strdup(paths[i]), err);
+        if (!ok) return false;
+    }
+    if (folder->count == 0) return ang_fail(err, ANG_INPUT, "%s: the folder is empty", paths[0]);
+    qsort(folder->paths, folder->count, sizeof *folder->paths, compare_paths);
+    for (size_t i = 0; i < folder->count; i++) {
+        if (kept > 0 && strcmp(folder->paths[kept - 1], folder->paths[i]) == 0)
+            free(folder->paths[i]);
+        else
+            folder->paths[kept++] = folder->paths[i];
+    }
+    folder->count = kept;
+    return true;
+}
+
+bool ang_dicom_read_folder(const char *const *paths, size_t count, int threads, ang_dicom_folder *folder,
+                           ang_notes *warnings, const ang_progress *progress, ang_error *err) {
+    *folder = (ang_dicom_folder){0};
+    if (!find_files(paths, count, folder, progress, err)) {
         ang_dicom_folder_clear(folder);
         return false;
     }
-    qsort(folder->paths, folder->count, sizeof *folder->paths, compare_paths);
     folder->labels = ang_alloc(folder->count, sizeof *folder->labels, "list of files", err);
     for (size_t i = 0; folder->labels && i < folder->count; i++) folder->labels[i] = ang_base_name(folder->paths[i]);
     int workers = ang_thread_count(threads);
@@ -146,7 +165,7 @@ bool ang_dicom_read_folder(const char *path, int threads, ang_dicom_folder *fold
     job.found = ang_alloc(folder->count, sizeof *job.found, "headers", err);
     job.errors = ang_alloc(folder->count, sizeof *job.errors, "headers", err);
     folder->slices = ang_alloc(folder->count, sizeof *folder->slices, "headers", err);
-    ok = folder->labels && job.readers && job.slices && job.found && job.errors && folder->slices;
+    bool ok = folder->labels && job.readers && job.slices && job.found && job.errors && folder->slices;
     if (ok) {
         ang_parallel_for(folder->count, 8, threads, read_headers, &job);
         if (job.stop) ok = ang_fail(err, ANG_INTERRUPTED, "interrupted while reading headers");

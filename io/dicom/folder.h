@@ -19,11 +19,11 @@ typedef struct ang_dicom_folder {
     char first_error[512];
 } ang_dicom_folder;
 
-/* Reads the headers of all regular files in and below `path`, or of that one file, on `threads` threads. Files that are
- * no DICOM are counted, DICOM files that cannot be read cost a line in `warnings` each. False with ANG_INPUT where the
- * path cannot be read, ANG_LIMIT, ANG_INTERRUPTED. */
-bool ang_dicom_read_folder(const char *path, int threads, ang_dicom_folder *folder, ang_notes *warnings,
-                           const ang_progress *progress, ang_error *err);
+/* Reads the headers of all regular files at, in and below `count` >= 1 paths, on `threads` threads. Files that are no
+ * DICOM are counted, DICOM files that cannot be read cost a line in `warnings` each. False with ANG_INPUT where a path
+ * cannot be read, ANG_LIMIT, ANG_INTERRUPTED. */
+bool ang_dicom_read_folder(const char *const *paths, size_t count, int threads, ang_dicom_folder *folder,
+                           ang_notes *warnings, const ang_progress *progress, ang_error *err);
 void ang_dicom_folder_clear(ang_dicom_folder *folder);
 
 /* Adds `message` about the file `label` to `notes`; errors begin with "LABEL: ", which the note leaves out. */

@@ -52,6 +52,21 @@ ang_dicom_map ang_dicom_map_of(const ang_dicom_slice *slice) {
     return map;
 }
 
+ang_raw_slice ang_dicom_raw_slice(const ang_dicom_slice *slice, const uint16_t *values) {
+    ang_dicom_map map = ang_dicom_map_of(slice);
+    bool sized = slice->has_spacing && slice->column_spacing > 0 && slice->row_spacing > 0;
+    return (ang_raw_slice){.values = values,
+                           .width = slice->columns,
+                           .height = slice->rows,
+                           .slope = map.slope,
+                           .intercept = map.intercept,
+                           .hounsfield = strcmp(slice->modality, "CT") == 0,
+                           .window_centre = slice->has_window ? slice->window_centre : NAN,
+                           .window_width = slice->has_window ? slice->window_width : NAN,
+                           .pixel_aspect = sized ? slice->row_spacing / slice->column_spacing : 1,
+                           .count = 1};
+}
+
 /* False where the two bytes are no value of `bits` bits. */
 static bool padding_value(uint16_t bytes, int bits, bool is_signed, int *value) {
     /* The representation decides, not the VR: 63536 is -2000 where pixels are signed (rule 10). */

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/notes.h"
+#include "core/volume/raw_slice.h"
 #include "io/dicom/slice.h"
 
 /* How the words are coded. */
@@ -30,6 +31,9 @@ typedef struct ang_dicom_map {
 
 /* The slice's own map: slope 0 or missing is 1, intercept missing is 0. */
 ang_dicom_map ang_dicom_map_of(const ang_dicom_slice *slice);
+
+/* The slice as it is shown by itself: `values` as ang_dicom_convert writes them. */
+ang_raw_slice ang_dicom_raw_slice(const ang_dicom_slice *slice, const uint16_t *values);
 
 /* The values of slice's padding, as ang_dicom_convert writes them: first to last, both included. False where none is
  * declared or where it does not fit the stored bits and so cannot occur. */
