@@ -22,9 +22,9 @@ static void stored_window(const ang_raw_slice *slice, double *centre, double *wi
         if (slice->values[i] < least) least = slice->values[i];
         if (slice->values[i] > greatest) greatest = slice->values[i];
     }
-    *centre = (least + greatest) / 2.0;
-    *width = greatest > least ? greatest - least : 1;
-    if (slope < 0) *width = -*width;
+    double range = greatest > least ? greatest - least : 1; /* a slice of one value is black */
+    *centre = least + range / 2;
+    *width = slope < 0 ? -range : range;
 }
 
 static int pixels(double length) { return length < 1 ? 1 : (int)lround(length); }
@@ -32,13 +32,13 @@ static int pixels(double length) { return length < 1 ? 1 : (int)lround(length); 
 /* Where pixel i of `count` begins among `from` pixels. */
 static int edge(int i, int count, int from) { return (int)((int64_t)i * from / count); }
 
-static double mean_of(const ang_raw_slice *slice, int x0, int x1, int y0, int y1) {
-    uint64_t sum = 0;
-    for (int y = y0; y < y1; y++) {
-        const uint16_t *row = slice->values + (size_t)y * (size_t)slice->width;
-        for (int x = x0; x < x1; x++) sum += row[x];
+/* Adds a row of the slice to the sums of the areas of a row of the preview. */
+static void add_row(const uint16_t *row, const int *edges, int width, uint64_t *sums) {
+    for (int i = 0; i < width; i++) {
+        uint32_t sum = 0; /* of fewer than 65536 values */
+        for (int x = edges[i]; x < edges[i + 1]; x++) sum += row[x];
+        sums[i] += sum;
     }
-    return (double)sum / ((double)(x1 - x0) * (y1 - y0));
 }
 
 void ang_preview_make(const ang_raw_slice *slice, int side, ang_preview *preview) {
@@ -49,12 +49,16 @@ void ang_preview_make(const ang_raw_slice *slice, int side, ang_preview *preview
     preview->height = height = height > slice->height ? slice->height : height;
     double centre, wide;
     stored_window(slice, &centre, &wide);
+    int edges[ANG_PREVIEW_SIDE + 1];
+    for (int i = 0; i <= width; i++) edges[i] = edge(i, width, slice->width);
     for (int j = 0; j < height; j++) {
+        uint64_t sums[ANG_PREVIEW_SIDE] = {0};
         int y0 = edge(j, height, slice->height), y1 = edge(j + 1, height, slice->height);
+        for (int y = y0; y < y1; y++) add_row(slice->values + (size_t)y * (size_t)slice->width, edges, width, sums);
         for (int i = 0; i < width; i++) {
-            double mean = mean_of(slice, edge(i, width, slice->width), edge(i + 1, width, slice->width), y0, y1);
-            double grey = (mean - centre) / wide + 0.5;
-            preview->grey[j * width + i] = grey <= 0 ? 0 : grey >= 1 ? 255 : (uint8_t)lround(255 * grey);
+            double mean = (double)sums[i] / ((double)(edges[i + 1] - edges[i]) * (y1 - y0));
+            double grey = 255 * ((mean - centre) / wide + 0.5);
+            preview->grey[j * width + i] = grey <= 0 ? 0 : grey >= 255 ? 255 : (uint8_t)(grey + 0.5);
         }
     }
 }
