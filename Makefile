@@ -1,7 +1,7 @@
 # Two commands do everything: `make demo` and `make test`. The build itself is CMake's: see CMakePresets.json.
 PACKAGES := build-essential cmake ninja-build pkg-config python3 python3-glad zlib1g-dev libcjson-dev libcmocka-dev \
 	libgdcm-dev libnifti-dev libopenimageio-dev libopencv-dev libosmesa6-dev libegl-dev libegl1 libgl1-mesa-dri \
-	libglfw3-dev libimgui-dev xvfb xdotool fonts-dejavu-core gnuplot-nox dicom3tools dcm2niix clang-format
+	libglfw3-dev libx11-dev libimgui-dev xvfb xdotool fonts-dejavu-core gnuplot-nox dicom3tools dcm2niix clang-format
 DEMO := demo
 
 .PHONY: all packages build demo test sanitize lint format clean

@@ -14,7 +14,7 @@ typedef struct verb_entry {
 } verb_entry;
 
 static const verb_entry verbs[] = {
-    {"view", ANG_VERB_VIEW, ang_app_view, "[view] [PATH] [options]", "a window with slices and volume rendering"},
+    {"view", ANG_VERB_VIEW, ang_app_view, "[view] [PATH...] [options]", "a window with slices and volume rendering"},
     {"info", ANG_VERB_INFO, ang_app_info, "info PATH [options]", "what is in a folder or file, and what was assumed"},
     {"render", ANG_VERB_RENDER, ang_app_render, "render PATH -o OUT.png [options]", "a picture of a volume"},
     {"report", ANG_VERB_REPORT, ang_app_report, "report PATH -o DIR [options]",

@@ -4,6 +4,7 @@
 #ifdef ANG_WITH_WINDOW
 
 #include "app/picture_state.h"
+#include "app/view_load.h"
 #include "app/view_preferences.h"
 #include "app/view_presets.h"
 #include "app/view_state.h"
@@ -13,7 +14,6 @@
 #include "io/load.h"
 #include "io/replace.h"
 #include "io/state.h"
-#include "io/text.h"
 #include "ui/viewer.h"
 
 #include <stdio.h>
@@ -32,46 +32,26 @@ typedef struct view {
     ang_viewer_settings settings;
 } view;
 
-static void copy_notes(const ang_load_report *report, ang_study *study) {
-    ang_notes_append(&study->notes, &report->warnings);
-    study->warnings = (int)study->notes.count;
-    ang_notes_append(&study->notes, &report->assumptions);
-}
-
-static void write_label(const ang_load_report *report, ang_study *study) {
-    const ang_series_info *info = &report->series[report->chosen];
-    bool named = strcmp(info->modality, "?") != 0;
-    snprintf(study->label, sizeof study->label, "%s series %d", named ? info->modality : report->format, info->number);
-    if (info->description) snprintf(study->description, sizeof study->description, "%s", info->description);
-    if (info->patient) ang_person_name_print(info->patient, study->patient, sizeof study->patient);
+static bool load(void *context, const ang_source *source, const ang_slice_sink *slices, ang_study *study,
+                 const ang_progress *progress, ang_error *err) {
+    view *view = context;
+    ang_load_options how = ang_waiting_load_options(&view->waiting, source->paths[0]);
+    return ang_view_load(&how, view->options->keep_phi, source, slices, study, progress, err);
 }
 
 static void release(void *context, ang_study *study) {
     (void)context;
-    ang_volume_free(study->volume);
-    ang_notes_clear(&study->notes);
-    if (study->handle) ang_load_report_clear(study->handle);
-    free(study->handle);
-    *study = (ang_study){0};
+    ang_view_release(study);
 }
 
-static bool load(void *context, const char *path, ang_study *study, const ang_progress *progress, ang_error *err) {
-    ang_load_options how = ang_waiting_load_options(&((view *)context)->waiting, path);
-    *study = (ang_study){0};
-    ang_load_report *report = calloc(1, sizeof *report);
-    if (!report) return ang_fail(err, ANG_LIMIT, "no memory for a report");
-    study->handle = report;
-    study->volume = ang_load(path, &how, report, progress, err);
-    if (!study->volume) {
-        release(context, study);
-        return false;
-    }
-    study->hounsfield = ang_load_report_hounsfield(report);
-    study->window_centre = report->window_centre;
-    study->window_width = report->window_width;
-    write_label(report, study);
-    copy_notes(report, study);
-    return true;
+static bool survey(void *context, const ang_source *source, const ang_series_sink *sink, const ang_progress *progress,
+                   ang_error *err) {
+    return ang_view_survey(((view *)context)->options, source, sink, progress, err);
+}
+
+static bool list_folder(void *context, const char *path, ang_file_list *list, ang_error *err) {
+    (void)context;
+    return ang_view_list_folder(path, list, err);
 }
 
 static ang_preset *preset_for(void *context, const ang_study *study, ang_error *err) {
@@ -189,18 +169,28 @@ static bool full_path(void *context, const char *path, char *full, size_t size) 
 
 static bool run(view *view, ang_error *err) {
     const ang_options *options = view->options;
-    ang_viewer_options how = {.path = options->argument_count > 0 ? options->arguments[0] : NULL};
+    ang_viewer_options how = {.paths = (const char *const *)options->arguments,
+                              .path_count = (size_t)options->argument_count};
+    char folder[4096] = "/";
+    if (!getcwd(folder, sizeof folder)) snprintf(folder, sizeof folder, "/");
     int size[2] = {0};
     if (options->size && !ang_app_parse_dims("size", options->size, 2, 16384, size, err)) return false;
     how.width = size[0];
     how.height = size[1];
     if (!ang_view_presets_read(&view->presets, &how.preset, err)) return false;
     if (options->state && !ang_waiting_read(&view->waiting, options->state, err)) return false;
-    if (options->state && !how.path) how.path = options->state;
+    if (options->state && how.path_count == 0) {
+        how.paths = &options->state;
+        how.path_count = 1;
+    }
     ang_view_preferences_read(&view->settings);
     ang_viewer_host host = {.context = view,
                             .load = load,
                             .release = release,
+                            .survey = survey,
+                            .list_folder = list_folder,
+                            .home = getenv("HOME"),
+                            .folder = folder,
                             .preset_for = preset_for,
                             .save_picture = save_picture,
                             .preset_place = preset_place,
@@ -223,8 +213,6 @@ static bool run(view *view, ang_error *err) {
 }
 
 int ang_app_view(const ang_options *options, ang_error *err) {
-    if (options->argument_count > 1 && !ang_app_arguments(options, 1, "view: give one file or folder to open", err))
-        return ANG_USAGE;
     view view = {.options = options,
                  .presets = {.options = options},
                  .waiting = {.options = options, .state = ang_state_default}};

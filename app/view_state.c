@@ -391,6 +391,22 @@ static void add_shell(cJSON *live, const ang_viewer_state *shown) {
     }
 }
 
+/* Numbers only: names of files and descriptions may identify a patient. */
+static void add_browsers(cJSON *live, const ang_viewer_state *state) {
+    cJSON_AddStringToObject(live, "open", state->open);
+    cJSON *files = cJSON_AddObjectToObject(live, "files");
+    cJSON_AddNumberToObject(files, "listed", state->files.listed);
+    cJSON_AddNumberToObject(files, "chosen", state->files.chosen);
+    cJSON *series = cJSON_AddObjectToObject(live, "series");
+    cJSON_AddNumberToObject(series, "listed", state->series.listed);
+    cJSON_AddNumberToObject(series, "chosen", state->series.chosen);
+    cJSON_AddNumberToObject(series, "looked_at", state->series.looked_at);
+    cJSON_AddBoolToObject(series, "dates", state->series.dates);
+    if (state->study) cJSON_AddNumberToObject(series, "shown", state->study->series);
+    cJSON_AddNumberToObject(live, "warnings", state->study ? state->study->warnings : 0);
+    cJSON_AddNumberToObject(live, "slices_previewed", state->slices_previewed);
+}
+
 char *ang_view_state_print(const ang_viewer_state *shown, const ang_load_options *data_options) {
     ang_state state;
     bool there = shown->study && ang_view_state_of(shown, data_options, &state, NULL);
@@ -400,6 +416,7 @@ char *ang_view_state_print(const ang_viewer_state *shown, const ang_load_options
     cJSON_AddStringToObject(live, "phase", shown->phase);
     if (there) add_live(live, shown);
     add_shell(live, shown);
+    add_browsers(live, shown);
     /* Without its folder, whose name may identify a patient. */
     const char *slash = shown->saved ? strrchr(shown->saved, '/') : NULL;
     if (shown->saved) cJSON_AddStringToObject(live, "saved", slash ? slash + 1 : shown->saved);

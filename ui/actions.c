@@ -14,11 +14,10 @@ static const double zoom_step = 1.15; /* of a key, and of a turn of the wheel */
 static bool is_ready(const ang_viewer *viewer) { return viewer->ready; }
 static bool can_undo(const ang_viewer *viewer) { return viewer->ready && ang_history_can_undo(&viewer->history); }
 static bool can_redo(const ang_viewer *viewer) { return viewer->ready && ang_history_can_redo(&viewer->history); }
-static bool has_notes(const ang_viewer *viewer) { return viewer->ready && viewer->study.notes.count > 0; }
 
 static void open_path(ang_viewer *viewer, int argument) {
     (void)argument;
-    viewer->opening = true;
+    ang_file_browser_open(viewer);
 }
 
 static void save_pane(ang_viewer *viewer, int argument) {
@@ -327,6 +326,16 @@ static void show_help(ang_viewer *viewer, int argument) {
     (void)argument;
     toggle(&viewer->help);
 }
+static bool has_source(const ang_viewer *viewer) { return ang_viewer_subject(viewer)->count > 0; }
+static void show_series(ang_viewer *viewer, int argument) {
+    (void)argument;
+    toggle(&viewer->series.open);
+    if (viewer->series.open) viewer->grips.layout.panel_hidden = false; /* which is where it is */
+}
+static bool shows_series(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->series.open;
+}
 static void show_notes(ang_viewer *viewer, int argument) {
     (void)argument;
     toggle(&viewer->notes);
@@ -336,6 +345,8 @@ enum { C = ANG_MOD_CONTROL, S = ANG_MOD_SHIFT, A = ANG_MOD_ALT };
 
 static const ang_action actions[] = {
     {"File", "Open...", "a folder or file; or drop it on the window", 'O', C, open_path, 0, false, NULL, NULL},
+    {"File", "Series...", "what else the folder holds, with pictures", ANG_KEY_F3, 0, show_series, 0, false, has_source,
+     shows_series},
     {"File", "Save picture of the pane", "the one with the bright frame; refined, without writing on it", 'S', C,
      save_pane, 0, true, is_ready, NULL},
     {"File", "Save pane as seen", "with letters, bar and measures", ANG_KEY_F12, 0, save_seen, 0, false, is_ready,
@@ -446,7 +457,8 @@ static const ang_action actions[] = {
     {"Help", "Find a command...", "type a part of its name", 'K', C, show_palette, 0, false, NULL, NULL},
     {"Help", "What keys and mouse do", NULL, ANG_KEY_F1, 0, show_help, 0, false, NULL, NULL},
     {"Help", "To the menus", "then arrows and Enter; Esc leaves them", ANG_KEY_F10, 0, to_menus, 0, false, NULL, NULL},
-    {"Help", "What loading assumed", NULL, ANG_KEY_F2, 0, show_notes, 0, false, has_notes, NULL},
+    {"Help", "What loading found", "warnings, files left out, assumptions", ANG_KEY_F2, 0, show_notes, 0, false,
+     is_ready, NULL},
 };
 enum { action_count = sizeof actions / sizeof *actions };
 
@@ -479,16 +491,18 @@ static void escape(ang_viewer *viewer) {
         return;
     } else if (viewer->palette.open) {
         viewer->palette.open = false;
-    } else if (viewer->opening || viewer->help || viewer->notes || viewer->browsing || viewer->preset_dialog.open) {
-        viewer->opening = viewer->help = viewer->notes = viewer->browsing = viewer->preset_dialog.open = false;
-    } else if (ang_gui_navigating(viewer->gui)) {
-        ang_gui_leave_widgets(viewer->gui);
+    } else if (viewer->files.open || viewer->help || viewer->notes || viewer->browsing || viewer->preset_dialog.open) {
+        viewer->files.open = viewer->help = viewer->notes = viewer->browsing = viewer->preset_dialog.open = false;
     } else if (viewer->cine.running) {
         ang_playing_stop(viewer);
     } else if (viewer->loading.running) {
         ang_loading_stop(&viewer->loading);
     } else if (viewer->failure[0] && viewer->ready) {
         viewer->failure[0] = '\0';
+    } else if (ang_gui_navigating(viewer->gui)) {
+        ang_gui_leave_widgets(viewer->gui);
+    } else if (viewer->series.open) {
+        viewer->series.open = false;
     } else if (!ang_transfer_editor_escape(viewer)) {
         viewer->maximised = -1;
     }
@@ -546,10 +560,12 @@ void ang_actions_keys(ang_viewer *viewer) {
                 escape(viewer);
             continue;
         }
-        bool taken = viewer->typing || viewer->palette.open || ang_gui_popup_open(viewer->gui) ||
+        bool taken = viewer->typing || viewer->palette.open || viewer->files.open || ang_gui_popup_open(viewer->gui) ||
                      (is_widgets(key) && ang_gui_navigating(viewer->gui));
+        unsigned modifiers = input->press[i].modifiers;
         if (key == ANG_KEY_NONE || taken) continue;
-        if (!ang_transfer_editor_key(viewer, key, input->press[i].modifiers))
-            press(viewer, key, input->press[i].modifiers);
+        if (!ang_load_report_key(viewer, key, modifiers) && !ang_series_browser_key(viewer, key, modifiers) &&
+            !ang_transfer_editor_key(viewer, key, modifiers))
+            press(viewer, key, modifiers);
     }
 }

@@ -61,6 +61,11 @@ void ang_gui_area_end(ang_gui *gui);
 void ang_gui_message_begin(ang_gui *gui, const char *name);
 void ang_gui_message_end(ang_gui *gui);
 
+/* A part of an area that scrolls where its contents are higher. */
+void ang_gui_scroll_begin(ang_gui *gui, const char *name, double width, double height);
+void ang_gui_scroll_by(ang_gui *gui, double pixels);
+void ang_gui_scroll_end(ang_gui *gui);
+
 /* The bar of menus at the window's top; its height. */
 double ang_gui_menu_bar_begin(ang_gui *gui);
 void ang_gui_menu_bar_end(ang_gui *gui);
@@ -81,6 +86,8 @@ void ang_gui_heading(ang_gui *gui, const char *text);
 void ang_gui_label(ang_gui *gui, const char *text); /* before a control of the same line, in a column of its own */
 void ang_gui_same_line(ang_gui *gui);
 void ang_gui_gap(ang_gui *gui, double height);
+void ang_gui_column(ang_gui *gui, double x);   /* of the same line: what comes next begins `x` from the area's left */
+void ang_gui_skip(ang_gui *gui, double width); /* before a control of the same line */
 bool ang_gui_button(ang_gui *gui, const char *label, double width, bool enabled);
 /* Whether the widget before is held down. */
 bool ang_gui_pressed(const ang_gui *gui);
@@ -132,6 +139,24 @@ typedef struct ang_canvas {
     bool focused;            /* it has the keyboard; only among widgets */
     bool activated;          /* by Enter or Space, while it has the keyboard */
 } ang_canvas;
+
+/* A list that scrolls, of `count` rows of one height, `row` pixels, that the program draws itself; of them only those
+ * from `first` up to `end` need to be. `follow`: the row that must show, -1: none. Tab passes over it. To be ended in
+ * any case. */
+typedef struct ang_rows_part {
+    int first, end;
+    int page; /* rows that show at once */
+} ang_rows_part;
+void ang_gui_rows_begin(ang_gui *gui, const char *name, double width, double height, double row, size_t count,
+                        int follow, ang_rows_part *part);
+/* What the hands do on row `index`; its place in the window. */
+ang_rect ang_gui_rows_row(ang_gui *gui, int index, ang_canvas *canvas);
+void ang_gui_rows_end(ang_gui *gui);
+/* A canvas of the left button that leaves the wheel to what it lies in. */
+void ang_gui_row_canvas(ang_gui *gui, const char *name, double width, double height, ang_canvas *canvas);
+/* A text field that has the keyboard whenever nothing else has; Tab, Enter, Up and Down are left to the program.
+ * `anew`: `text` has been changed by the program. True where it was typed in. */
+bool ang_gui_path_field(ang_gui *gui, const char *name, char *text, size_t size, double width, bool anew);
 
 /* A pane of its own at `rect`, black; draw until its end. To be ended in any case. */
 void ang_gui_pane_begin(ang_gui *gui, const char *name, ang_rect rect, ang_canvas *canvas);

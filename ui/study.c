@@ -80,7 +80,7 @@ void ang_study_close(ang_viewer *viewer) {
     viewer->ready = false;
 }
 
-static void show_study(ang_viewer *viewer, const ang_study *study, const char *wanted_preset) {
+void ang_study_show(ang_viewer *viewer, const ang_study *study, const char *wanted_preset) {
     ang_study_close(viewer);
     viewer->study = *study;
     viewer->ready = true;
@@ -108,31 +108,4 @@ static void show_study(ang_viewer *viewer, const ang_study *study, const char *w
     ang_session_apply(viewer);
     viewer->cutting.pivot = viewer->crosshair;
     ang_history_note(&viewer->history, document, 0);
-}
-
-void ang_viewer_open(ang_viewer *viewer, const char *path) {
-    ang_error err = {0};
-    char room[sizeof viewer->asked];
-    ang_loading_end(&viewer->loading);
-    viewer->failure[0] = '\0';
-    path = ang_session_data(viewer, path, room, sizeof room);
-    if (!path) return;
-    snprintf(viewer->asked, sizeof viewer->asked, "%s", path);
-    if (!ang_loading_start(&viewer->loading, viewer->host, path, &err))
-        snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);
-}
-
-void ang_study_take_loaded(ang_viewer *viewer, const char *wanted_preset) {
-    bool done;
-    ang_study study;
-    ang_error err;
-    if (!ang_loading_take(&viewer->loading, &done, &study, &err)) return;
-    if (done) {
-        show_study(viewer, &study, wanted_preset);
-        ang_settings_opened(viewer, viewer->asked);
-    } else if (err.code == ANG_INTERRUPTED)
-        snprintf(viewer->failure, sizeof viewer->failure, "Loading was cancelled.");
-    else
-        snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);
-    viewer->redraws = 2;
 }

@@ -59,10 +59,23 @@ static void layout(ang_viewer *viewer) {
         panes(viewer);
         ang_focus_follow(viewer);
         ang_transfer_editor_leave(viewer);
+    } else if (viewer->series.open && places.panel.width >= 1) {
+        ang_panel(viewer, places.panel);
     }
     ang_status_line(viewer, places.status);
     ang_messages(viewer);
     ang_palette_show(viewer);
+}
+
+static void describe_browsers(const ang_viewer *viewer, ang_viewer_state *state) {
+    state->open = viewer->files.open ? "files" : viewer->notes ? "report" : viewer->series.open ? "series" : "";
+    state->files.listed = (int)viewer->files.shown_count;
+    state->files.chosen = viewer->files.chosen;
+    state->series.listed = (int)viewer->series.list.count;
+    state->series.chosen = viewer->series.chosen;
+    state->series.looked_at = viewer->series.looked_at;
+    state->series.dates = viewer->series.dates;
+    state->slices_previewed = viewer->preview.pictures;
 }
 
 /* Seconds until there is something to do for the 3D pane while the hands rest; infinite: nothing. */
@@ -134,6 +147,7 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
         state->pane[i] = viewer->pane[i];
     }
     state->pane[ANG_PANE_VOLUME] = viewer->pane[ANG_PANE_VOLUME];
+    describe_browsers(viewer, state);
 }
 
 static void tell_host(ang_viewer *viewer) {
@@ -208,14 +222,28 @@ static void rest(ang_viewer *viewer) {
     rest_work(viewer);
 }
 
+static void take_dropped(ang_viewer *viewer) {
+    char **paths;
+    size_t count = ang_window_dropped(viewer->window, &paths);
+    if (count == 0) return;
+    ang_source source = ang_source_make((const char *const *)paths, count, 0);
+    viewer->files.open = false;
+    ang_viewer_open_source(viewer, &source);
+}
+
 static bool work(ang_viewer *viewer, const ang_viewer_options *options, ang_error *err) {
-    if (options->path) ang_viewer_open(viewer, options->path);
+    if (options->path_count > 0) {
+        ang_source source = ang_source_make(options->paths, options->path_count, 0);
+        ang_viewer_open_source(viewer, &source);
+    } else {
+        ang_file_browser_open(viewer);
+    }
     viewer->redraws = 2;
     while (!ang_window_closing(viewer->window)) {
-        ang_study_take_loaded(viewer, options->preset);
-        char *dropped = ang_window_dropped(viewer->window);
-        if (dropped) ang_viewer_open(viewer, dropped);
-        free(dropped);
+        ang_viewer_take_loaded(viewer, options->preset);
+        ang_viewer_take_preview(viewer);
+        ang_series_browser_step(viewer);
+        take_dropped(viewer);
         bool more = ang_window_input(viewer->window, &viewer->input);
         if (viewer->input.width < 1 || viewer->input.height < 1) {
             ang_window_wait(viewer->window, INFINITY); /* iconified */
@@ -247,7 +275,9 @@ bool ang_viewer_run(const ang_viewer_host *host, const ang_viewer_options *optio
     if (viewer->painter) viewer->gui = ang_gui_create(viewer->window, viewer->painter, host->font, err);
     bool done = viewer->gui && work(viewer, options, err);
     if (viewer->gui) ang_settings_remember(viewer, true);
-    ang_loading_end(&viewer->loading);
+    ang_viewer_opening_clear(viewer);
+    ang_series_browser_clear(viewer);
+    ang_file_browser_clear(&viewer->files);
     ang_study_close(viewer);
     ang_gui_destroy(viewer->gui);
     ang_painter_destroy(viewer->painter);

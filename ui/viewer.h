@@ -4,19 +4,24 @@
 #define ANG_UI_VIEWER_H
 
 #include "core/base/error.h"
+#include "core/base/facts.h"
 #include "core/base/notes.h"
 #include "core/base/progress.h"
 #include "core/render/method.h"
 #include "core/scene/image.h"
 #include "core/transfer/preset.h"
+#include "core/volume/raw_slice.h"
 #include "core/volume/volume.h"
 #include "ui/gui.h"
 #include "ui/settings.h"
 #include "ui/state/cine.h"
 #include "ui/state/document.h"
 #include "ui/state/editing.h"
+#include "ui/state/file_list.h"
+#include "ui/state/series_list.h"
 #include "ui/state/session.h"
 #include "ui/state/slice_geometry.h"
+#include "ui/state/source.h"
 
 /* What has been loaded. Owned by the host until `release`. */
 typedef struct ang_study {
@@ -27,6 +32,9 @@ typedef struct ang_study {
     char description[260], patient[260]; /* the same; may identify the patient; empty: not known */
     ang_notes notes;                     /* warnings and assumptions, a sentence each */
     int warnings;                        /* how many of the notes, from the first, are warnings */
+    int series, series_count;            /* which of how many series of its source, from 1 */
+    ang_facts facts;                     /* geometry and values, nothing that may identify a patient */
+    char *report;                        /* all that loading found, as text to be copied; NULL: none */
     void *handle;                        /* the host's */
 } ang_study;
 
@@ -67,17 +75,27 @@ typedef struct ang_viewer_state {
     const char *method; /* that draws; NULL: none yet */
     int size[2];        /* of the 3D picture, pixels */
     bool refined;
-    bool at_rest;       /* nothing is left to do until input comes */
-    bool judged;        /* its error is known, or that it cannot be: */
-    double error;       /* levels; NAN: cannot be known */
-    double latency_ms;  /* from the last event to the window that showed what came of it */
-    double frame_ms;    /* the last 3D picture's */
-    int undo, redo;     /* 1 where possible */
-    const char *saved;  /* the last file written; NULL: none */
-    int frames;         /* windows drawn so far */
-    ang_pane focus;     /* the pane that keys apply to */
-    bool widgets;       /* widgets have the keyboard instead */
-    bool help, palette; /* open */
+    bool at_rest;      /* nothing is left to do until input comes */
+    bool judged;       /* its error is known, or that it cannot be: */
+    double error;      /* levels; NAN: cannot be known */
+    double latency_ms; /* from the last event to the window that showed what came of it */
+    double frame_ms;   /* the last 3D picture's */
+    int undo, redo;    /* 1 where possible */
+    const char *saved; /* the last file written; NULL: none */
+    const char *open;  /* "files", "series", "report": what is in front; "": nothing */
+    struct {
+        int listed, chosen; /* rows of the file browser; the one that is marked, from 0, -1: none */
+    } files;
+    struct {
+        int listed, chosen; /* rows of the series browser; the one that is marked, from 0 */
+        int looked_at;      /* of which everything is known */
+        bool dates;         /* are shown */
+    } series;
+    int slices_previewed; /* pictures of slices that have been shown while loading, so far */
+    int frames;           /* windows drawn so far */
+    ang_pane focus;       /* the pane that keys apply to */
+    bool widgets;         /* widgets have the keyboard instead */
+    bool help, palette;   /* open */
     const char *theme;
     const ang_layout *layout;
     ang_rect grip[ANG_GRIPS];
@@ -87,12 +105,27 @@ typedef struct ang_viewer_state {
 /* Where a preset of some name is kept. */
 typedef enum ang_preset_place { ANG_PRESET_AT_NOWHERE, ANG_PRESET_AT_INSTALLED, ANG_PRESET_AT_OWN } ang_preset_place;
 
+/* Is told what a survey finds; from the thread of the survey. Borrows for the call. */
+typedef struct ang_series_sink {
+    /* The entries, of which the loader's look is still to come. Once, first. */
+    void (*listed)(void *context, const ang_series_list *list);
+    /* Entry `index` anew, with its picture and verdict. */
+    void (*looked_at)(void *context, size_t index, const ang_series_entry *entry);
+    void *context;
+} ang_series_sink;
+
 /* What the viewer asks of the program. */
 typedef struct ang_viewer_host {
     void *context;
-    /* Reads `path`; on a thread of its own. False as ang_load. */
-    bool (*load)(void *context, const char *path, ang_study *study, const ang_progress *progress, ang_error *err);
+    /* Reads `source`; on a thread of its own. `slices` is given slices meanwhile. False as ang_load_all. */
+    bool (*load)(void *context, const ang_source *source, const ang_slice_sink *slices, ang_study *study,
+                 const ang_progress *progress, ang_error *err);
     void (*release)(void *context, ang_study *study);
+    /* Finds out what `source` holds and tells `sink`; on a thread of its own. False as ang_survey. */
+    bool (*survey)(void *context, const ang_source *source, const ang_series_sink *sink, const ang_progress *progress,
+                   ang_error *err);
+    /* Adds what a folder holds; false with ANG_INPUT where it cannot be read. */
+    bool (*list_folder)(void *context, const char *path, ang_file_list *list, ang_error *err);
     /* A preset for a study whose values are no Hounsfield units, which the viewer frees; or NULL and an error. */
     ang_preset *(*preset_for)(void *context, const ang_study *study, ang_error *err);
     /* Writes a picture to a new file, whose path goes to `path`. With `state`, which repeats it; NULL: none does. */
@@ -124,6 +157,8 @@ typedef struct ang_viewer_host {
     bool (*full_path)(void *context, const char *path, char *full, size_t size);
     const ang_viewer_settings *settings; /* to begin with; NULL: defaults; outlives the viewer */
     const ang_preset *const *presets;    /* NULL at the end; stay until one is saved or deleted */
+    const char *home;                    /* the user's folder; NULL: not known */
+    const char *folder;                  /* where the file browser begins */
     const char *font;                    /* TrueType file; NULL: none found */
     const char *version;
     int threads;   /* 0: all */
@@ -131,9 +166,10 @@ typedef struct ang_viewer_host {
 } ang_viewer_host;
 
 typedef struct ang_viewer_options {
-    const char *path;   /* to open; NULL: none */
-    const char *preset; /* name of the one to begin with; NULL: as suits */
-    int width, height;  /* of the window, pixels; 0: as suits the screen */
+    const char *const *paths; /* to open as one input */
+    size_t path_count;        /* 0: the file browser opens */
+    const char *preset;       /* name of the one to begin with; NULL: as suits */
+    int width, height;        /* of the window, pixels; 0: as suits the screen */
 } ang_viewer_options;
 
 /* Opens the window, works until it is closed. False with ANG_GL where no window can be opened, or what went wrong in it

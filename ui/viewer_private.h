@@ -9,6 +9,8 @@
 #include "ui/gui.h"
 #include "ui/loading.h"
 #include "ui/palette.h"
+#include "ui/panels/file_browser.h"
+#include "ui/panels/series_browser.h"
 #include "ui/panes/cutting.h"
 #include "ui/panes/measuring.h"
 #include "ui/state/cine.h"
@@ -137,6 +139,13 @@ typedef struct ang_preset_dialog {
     char problem[1024]; /* why it could not be done; empty: nothing */
 } ang_preset_dialog;
 
+/* The slice that has been read last while loading. */
+typedef struct ang_slice_preview {
+    ang_paint_texture texture;
+    size_t index, count; /* its place from 0, of how many; count 0: none yet */
+    int pictures;        /* made since the window opened */
+} ang_slice_preview;
+
 typedef struct ang_viewer {
     const ang_viewer_host *host;
     ang_window *window;
@@ -145,6 +154,13 @@ typedef struct ang_viewer {
     const ang_theme *theme; /* of all but pictures */
     ang_input input;
     ang_loading loading;
+    ang_slice_preview preview;
+    ang_source shown;  /* what `study` was read from */
+    ang_source failed; /* what `failure` is about */
+    ang_source next;   /* to be opened once loading has stopped; of no paths: none */
+    ang_file_browser files;
+    ang_series_browser series;
+    double report_scroll; /* pixels that the loader's report is still to be scrolled */
     ang_study study;
     bool ready;         /* there is a study */
     char path[1024];    /* that it was read from */
@@ -178,14 +194,13 @@ typedef struct ang_viewer {
     bool turns_about_crosshair; /* the hand on the 3D picture, else about the volume's centre */
     ang_measuring measuring;
 
-    bool help, notes, opening, browsing, corner_text, crosshair_shown, names_hidden;
+    bool help, notes, browsing, corner_text, crosshair_shown, names_hidden;
     bool voxels_shown; /* slices without interpolation */
     ang_thumbnails thumbnails;
     ang_preset_dialog preset_dialog;
     bool comparing;        /* the 3D pane shows the preset as it is saved: */
     ang_document compared; /* what it then shows */
-    char typed_path[1024];
-    bool save_wanted; /* a picture of the pane, when refined */
+    bool save_wanted;      /* a picture of the pane, when refined */
     ang_pane save_pane;
     ang_shot shot;
     char saved[1024];
@@ -210,9 +225,8 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state);
 
 /* study.c */
 extern const ang_view ang_viewer_first_view;
-void ang_viewer_open(ang_viewer *viewer, const char *path);
-/* Shows what has been loaded meanwhile. */
-void ang_study_take_loaded(ang_viewer *viewer, const char *wanted_preset);
+/* Shows a study, which is taken, instead of the one before. */
+void ang_study_show(ang_viewer *viewer, const ang_study *study, const char *wanted_preset);
 void ang_study_close(ang_viewer *viewer);
 const ang_preset *ang_preset_named(const ang_viewer *viewer, const char *name); /* NULL: there is none */
 void ang_viewer_choose_preset(ang_viewer *viewer, const ang_preset *preset);
@@ -230,6 +244,20 @@ const char *ang_session_data(ang_viewer *viewer, const char *path, char *room, s
 void ang_session_apply(ang_viewer *viewer);
 void ang_session_save(ang_viewer *viewer);
 const char *ang_volume_method_choice(const ang_viewer *viewer); /* "auto" or a name */
+
+/* opening.c */
+void ang_viewer_open(ang_viewer *viewer, const char *path);
+/* The same for any source, which is taken. What is being loaded is stopped; what is shown stays until this is there. */
+void ang_viewer_open_source(ang_viewer *viewer, ang_source *source);
+/* Shows what has been loaded meanwhile. */
+void ang_viewer_take_loaded(ang_viewer *viewer, const char *wanted_preset);
+/* Makes the slice that was read last the one that is shown while loading. */
+void ang_viewer_take_preview(ang_viewer *viewer);
+/* What the series browser is about: what is shown, or what could not be. */
+const ang_source *ang_viewer_subject(const ang_viewer *viewer);
+/* Greys, rows from the top, as a texture; it stays as it is where that fails or there are none. */
+void ang_viewer_paint_grey(ang_viewer *viewer, const uint8_t *grey, int width, int height, ang_paint_texture *texture);
+void ang_viewer_opening_clear(ang_viewer *viewer);
 
 /* saving.c */
 /* A picture of the window (-1) or of a pane as it is seen, writing included: of the next frame without a menu, the 3D
@@ -332,8 +360,11 @@ void ang_orientation_axes(ang_viewer *viewer, ang_rect rect, const ang_camera *c
 void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane);
 void ang_status_line(ang_viewer *viewer, ang_rect rect);
 
-/* messages.c, panel.c, transfer_editor.c */
+/* messages.c, panel.c, transfer_editor.c, load_report.c */
 void ang_messages(ang_viewer *viewer);
+void ang_load_report_window(ang_viewer *viewer);
+/* Whether the key was for it. */
+bool ang_load_report_key(ang_viewer *viewer, int key, unsigned modifiers);
 void ang_panel(ang_viewer *viewer, ang_rect rect);
 void ang_cutting_panel(ang_viewer *viewer); /* cutting_panel.c */
 void ang_transfer_editor(ang_viewer *viewer);
@@ -383,6 +414,17 @@ void ang_measures_toggle(ang_viewer *viewer, int argument);
 bool ang_measures_any(const ang_viewer *viewer);
 bool ang_measures_chosen(const ang_viewer *viewer);
 bool ang_measures_shown(const ang_viewer *viewer, int argument);
+
+/* file_browser.c, series_browser.c */
+void ang_file_browser_open(ang_viewer *viewer);
+void ang_file_browser_show(ang_viewer *viewer);
+void ang_file_browser_clear(ang_file_browser *files);
+void ang_series_browser_show(ang_viewer *viewer);
+/* Takes what has been found meanwhile, and begins to look where the browser is open. */
+void ang_series_browser_step(ang_viewer *viewer);
+/* Whether the key was for it. */
+bool ang_series_browser_key(ang_viewer *viewer, int key, unsigned modifiers);
+void ang_series_browser_clear(ang_viewer *viewer);
 
 /* thumbnails.c */
 /* The presets that can be chosen, own_preset first; at most ANG_THUMBNAILS. Returns their number. */

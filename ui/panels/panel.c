@@ -80,18 +80,28 @@ static void series(ang_viewer *viewer) {
     ang_gui_text_dim(gui, "%d x %d x %d voxels", dims[0], dims[1], dims[2]);
     ang_gui_text_dim(gui, "%.3g x %.3g x %.3g mm", ang_volume_spacing(study->volume, 0),
                      ang_volume_spacing(study->volume, 1), ang_volume_spacing(study->volume, 2));
-    if (study->notes.count == 0) return;
     char text[80];
-    if (study->warnings > 0)
-        snprintf(text, sizeof text, "%d warning%s on loading", study->warnings, ang_plural(study->warnings));
+    double half = (ang_gui_room(gui) - ang_gui_px(gui, 8)) / 2;
+    if (study->series_count > 1)
+        snprintf(text, sizeof text, "Series %d of %d", study->series, study->series_count);
     else
-        snprintf(text, sizeof text, "What loading assumed (%zu)", study->notes.count);
-    if (ang_gui_button(gui, text, ang_gui_room(gui), true)) viewer->notes = true;
+        snprintf(text, sizeof text, "Series");
+    if (ang_gui_button(gui, text, half, true)) viewer->series.open = true;
+    ang_gui_tooltip(gui, "What else there is, with pictures. Key F3.");
+    ang_gui_same_line(gui);
+    if (study->warnings > 0)
+        snprintf(text, sizeof text, "\u25b2 %d warning%s", study->warnings, ang_plural(study->warnings));
+    else
+        snprintf(text, sizeof text, "Report");
+    if (ang_gui_button(gui, text, half, true)) viewer->notes = true;
+    ang_gui_tooltip(gui, "What loading found and assumed. Key F2.");
 }
 
 void ang_panel(ang_viewer *viewer, ang_rect rect) {
     ang_gui_area_begin(viewer->gui, "panel", rect, true);
-    if (viewer->ready) {
+    if (viewer->series.open) {
+        ang_series_browser_show(viewer);
+    } else if (viewer->ready) {
         ang_presets_panel(viewer);
         ang_transfer_editor(viewer);
         rendering(viewer);

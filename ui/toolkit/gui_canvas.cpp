@@ -77,6 +77,13 @@ void ang_gui_canvas(ang_gui *gui, const char *name, double width, double height,
     if (canvas->hovered) ImGui::SetItemUsingMouseWheel();
 }
 
+void ang_gui_row_canvas(ang_gui *gui, const char *name, double width, double height, ang_canvas *canvas) {
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton(name, ImVec2((float)width, (float)height), ImGuiButtonFlags_MouseButtonLeft);
+    read_canvas(gui, ang_rect{(double)at.x, (double)at.y, width, height}, canvas);
+    canvas->wheel = 0;
+}
+
 static ImVec2 at(double x, double y) { return ImVec2((float)x, (float)y); }
 static ImDrawList *sheet() { return ImGui::GetWindowDrawList(); }
 

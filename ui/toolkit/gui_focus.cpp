@@ -57,7 +57,7 @@ static void take_tabs(ang_gui *gui) {
     for (int i = 0; i < input.press_count; i++) {
         if (input.press[i].key != ANG_KEY_TAB || (input.press[i].modifiers & ~(unsigned)ANG_MOD_SHIFT)) continue;
         int by = input.press[i].modifiers & ANG_MOD_SHIFT ? -1 : 1;
-        if (ang_gui_popup_open(gui)) continue;
+        if (ang_gui_popup_open(gui) || gui->tab_kept) continue;
         if (ImGui::GetIO().WantTextInput)
             gui->waiting_step = by;
         else
@@ -105,6 +105,7 @@ void ang_gui_take_keys(ang_gui *gui) {
     if (!gui->dialog) gui->before = shown ? g.NavId : 0;
     gui->stops.clear();
     gui->dialog_open = gui->dialog != nullptr;
+    gui->tab_kept = false;
     gui->dialog = nullptr;
     gui->arrows_of = 0;
 }

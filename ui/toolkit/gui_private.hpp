@@ -49,6 +49,10 @@ struct ang_gui {
     bool by_keys;                    /* the last that was done was done by a key */
     int waiting_step;                /* of Tab, for the next frame; 0: none */
     int focused_frame;               /* in which a text field was given the keyboard */
+    double row;                      /* of the list that is open: pixels */
+    size_t row_count;
+    bool tab_kept;  /* Tab completes in the field of a path that was shown in the frame before */
+    bool path_held; /* the field of a path had the keyboard in the frame before */
     std::vector<ang_paint_vertex> vertices;
     std::vector<uint16_t> indices;
     std::vector<ang_paint_command> commands;

@@ -109,6 +109,8 @@ void ang_gui_label(ang_gui *gui, const char *text) {
     ImGui::SameLine((float)ang_gui_px(gui, 96));
 }
 void ang_gui_same_line(ang_gui *) { ImGui::SameLine(); }
+void ang_gui_column(ang_gui *, double x) { ImGui::SetCursorPosX((float)x); }
+void ang_gui_skip(ang_gui *, double width) { ImGui::SetCursorPosX(ImGui::GetCursorPosX() + (float)width); }
 void ang_gui_gap(ang_gui *, double height) { ImGui::Dummy(ImVec2(0, (float)height)); }
 
 static void next_width(double width) { ImGui::SetNextItemWidth(width > 0 ? (float)width : -1); }

@@ -18,7 +18,9 @@ struct ang_window {
     bool repeats;        /* the key that last went down repeats: so does the character after it */
     double asked, heard; /* seconds: when events were last asked for, and when all until then had come */
     bool damaged;        /* size or contents must be drawn again */
-    char *dropped;
+    char **dropped;      /* paths of the last drop */
+    size_t dropped_count;
+    bool dropped_fresh; /* nobody has asked for them yet */
     GLFWcursor *cursors[ANG_CURSOR_COUNT];
     ang_cursor cursor;
     int placed[4]; /* x, y, width, height before full screen */
@@ -158,12 +160,23 @@ static void on_scale(GLFWwindow *handle, float x, float y) {
     of(handle)->damaged = true;
 }
 
+static void forget_dropped(ang_window *window) {
+    for (size_t i = 0; i < window->dropped_count; i++) free(window->dropped[i]);
+    free(window->dropped);
+    window->dropped = NULL;
+    window->dropped_count = 0;
+}
+
 static void on_drop(GLFWwindow *handle, int count, const char **paths) {
     ang_window *window = of(handle);
     if (count < 1) return;
-    free(window->dropped);
-    window->dropped = strdup(paths[0]);
-    window->damaged = true;
+    forget_dropped(window);
+    window->dropped = calloc((size_t)count, sizeof *window->dropped);
+    for (int i = 0; i < count && window->dropped; i++) {
+        char *path = strdup(paths[i]);
+        if (path) window->dropped[window->dropped_count++] = path;
+    }
+    window->dropped_fresh = window->damaged = true;
 }
 
 static bool fail(ang_error *err, const char *what) {
@@ -239,7 +252,7 @@ void ang_window_destroy(ang_window *window) {
         if (window->cursors[i]) glfwDestroyCursor(window->cursors[i]);
     if (window->handle) glfwDestroyWindow(window->handle);
     glfwTerminate();
-    free(window->dropped);
+    forget_dropped(window);
     free(window);
 }
 
@@ -299,10 +312,11 @@ void ang_window_toggle_full_screen(ang_window *window) {
     glfwSetWindowMonitor(window->handle, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-char *ang_window_dropped(ang_window *window) {
-    char *path = window->dropped;
-    window->dropped = NULL;
-    return path;
+size_t ang_window_dropped(ang_window *window, char ***paths) {
+    *paths = window->dropped;
+    bool fresh = window->dropped_fresh;
+    window->dropped_fresh = false;
+    return fresh ? window->dropped_count : 0;
 }
 
 void ang_window_cursor(ang_window *window, ang_cursor cursor) {

@@ -36,8 +36,9 @@ void ang_window_close(ang_window *window);
 /* Its size in pixels, as it is when it does not fill the screen. */
 void ang_window_size(const ang_window *window, int *width, int *height);
 void ang_window_toggle_full_screen(ang_window *window);
-/* What has been dropped on the window since the last call: the caller frees; NULL: nothing. */
-char *ang_window_dropped(ang_window *window);
+/* The paths that have been dropped on the window last, and since the last call; their number. The window's until the
+ * next drop. */
+size_t ang_window_dropped(ang_window *window, char ***paths);
 
 /* The pointer's shape. */
 typedef enum ang_cursor {
