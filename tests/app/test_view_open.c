@@ -96,7 +96,7 @@ static void without_a_path_the_file_browser_opens(void **state) {
 static void the_keyboard_finds_and_opens_a_folder(void **state) {
     (void)state;
     need_window();
-    type(FOLDER "/"); /* behind the folder that is there: a whole path begins anew */
+    type(FOLDER "/");                /* behind the folder that is there: a whole path begins anew */
     expect_count("files.listed", 4); /* broken, study, long.raw.gz, nothing.dcm */
     expect_count("files.chosen", -1);
     type("st");
