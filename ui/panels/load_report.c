@@ -1,4 +1,5 @@
 /* What loading found: facts, warnings, files left out, assumptions. */
+#include "ui/panes/identity.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
@@ -64,8 +65,8 @@ void ang_load_report_window(ang_viewer *viewer) {
     size_t warnings = (size_t)study->warnings, all = study->notes.count;
     double button = ang_gui_px(gui, 96);
     ang_gui_message_begin(gui, "report");
-    bool described = study->description[0] && ang_identity_shown(viewer);
-    ang_gui_text(gui, "%s%s%.80s", study->label, described ? ": " : "", described ? study->description : "");
+    char title[340];
+    ang_gui_text(gui, "%s", ang_identity_series(viewer, title));
     if (study->series_count > 1) {
         ang_gui_same_line(gui);
         ang_gui_text_dim(gui, "series %d of %d", study->series, study->series_count);

@@ -1,5 +1,6 @@
 /* The series of what has been opened, each with a picture of its middle slice and what the loader thinks of it. */
 #include "core/base/memory.h"
+#include "ui/panes/identity.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
@@ -221,8 +222,7 @@ static void draw_row(ang_viewer *viewer, int row) {
     ang_series_entry_title(entry, ang_identity_shown(viewer), text, sizeof text);
     ang_gui_write(gui, x, y - ang_gui_px(gui, 1), 0, false, false, entry->loadable ? theme->text : theme->dim, text);
     snprintf(text, sizeof text, "%d x %d, %d slice%s%s%s", entry->dims[0], entry->dims[1], entry->dims[2],
-             ang_plural(entry->dims[2]), series->dates && entry->date[0] ? ",  " : "",
-             series->dates ? entry->date : "");
+             ang_plural(entry->dims[2]), dated ? ",  " : "", dated ? entry->date : "");
     ang_gui_write(gui, x, y + line, 0, true, false, theme->dim, entry->dims[0] > 0 ? text : "");
     const double *mm = entry->spacing_mm;
     snprintf(text, sizeof text, "%.3g x %.3g x %.3g mm", mm[0], mm[1], mm[2]);
