@@ -226,7 +226,7 @@ void ang_measuring_volume(ang_viewer *viewer, const ang_canvas *canvas) {
         return;
     }
     const ang_gesture *gesture = &viewer->gesture;
-    bool ours = gesture->pane == ANG_PANE_VOLUME && !gesture->cancelled && !gesture->bends;
+    bool ours = gesture->pane == ANG_PANE_VOLUME && !gesture->cancelled && !gesture->bends && !gesture->strengthens;
     bool click = ours && canvas->clicked && canvas->released == ANG_BUTTON_LEFT;
     double x = click ? canvas->start_x : canvas->x, y = click ? canvas->start_y : canvas->y;
     if (click && measuring->kind != ANG_MEASURE_LENGTH) {
