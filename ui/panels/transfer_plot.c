@@ -153,7 +153,7 @@ static void draw_beyond(const ang_plot *plot) {
     snprintf(text, sizeof text, "\xe2\x86\x90 %d", count[0]);
     if (count[0] > 0) ang_gui_write(gui, plot->curve.x + edge, y, 0, true, false, viewer->theme->text, text);
     snprintf(text, sizeof text, "%d \xe2\x86\x92", count[1]);
-    double right = plot->curve.x + plot->curve.width - edge;
+    double right = plot->curve.x + plot->curve.width - ang_gui_px(gui, 44); /* the grid's numbers stay free */
     if (count[1] > 0) ang_gui_write(gui, right, y, 1, true, false, viewer->theme->text, text);
 }
 

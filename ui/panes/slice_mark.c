@@ -29,14 +29,15 @@ static bool fill(ang_viewer *viewer, ang_slice_picture *picture, float low, floa
     return true;
 }
 
-/* What the colour means, below the pane's name: a swatch and the range. */
+/* What the colour means, below the pane's and the patient's name: a swatch and the range. */
 static void write_legend(const ang_viewer *viewer, ang_rect rect) {
     ang_gui *gui = viewer->gui;
     const ang_hu_share *share = &viewer->editing.mark;
     char text[80];
     snprintf(text, sizeof text, "%.6g to %.6g%s", share->low, share->high, viewer->study.hounsfield ? " HU" : "");
     double swatch = ang_gui_px(gui, 10), gap = ang_gui_px(gui, 6), tall = ang_gui_text_height(gui, true);
-    double x = rect.x + ang_gui_px(gui, 8), y = rect.y + ang_gui_px(gui, 26);
+    /* On the third line: the second is the patient's. */
+    double x = rect.x + ang_gui_px(gui, 8), y = rect.y + ang_gui_px(gui, 8) + 2 * (tall + ang_gui_px(gui, 3));
     if (swatch + gap + ang_gui_text_width(gui, text, true) > rect.width / 2) return;
     ang_rect square = {x, floor(y + (tall - swatch) / 2), swatch, swatch};
     ang_gui_fill(gui, square, ANG_INK_MARK);
