@@ -2,7 +2,7 @@
 #ifndef ANG_APP_VIEW_PREFERENCES_H
 #define ANG_APP_VIEW_PREFERENCES_H
 
-#include "ui/settings.h"
+#include "ui/host/settings.h"
 
 /* As they were left, else the defaults; a damaged file is told on stderr and replaced when next written. */
 void ang_view_preferences_read(ang_viewer_settings *settings);

@@ -4,16 +4,16 @@
 
 #include "core/scene/objects.h"
 #include "core/volume/histogram.h"
-#include "ui/focus.h"
-#include "ui/grips.h"
-#include "ui/gui.h"
-#include "ui/loading.h"
-#include "ui/palette.h"
-#include "ui/panels/file_browser.h"
+#include "ui/actions/palette.h"
+#include "ui/dialogs/file_browser.h"
+#include "ui/host/loading.h"
 #include "ui/panels/series_browser.h"
 #include "ui/panes/cutting.h"
+#include "ui/panes/focus.h"
+#include "ui/panes/grips.h"
 #include "ui/panes/measuring.h"
 #include "ui/state/cine.h"
+#include "ui/toolkit/gui.h"
 #include "ui/viewer.h"
 
 /* Colours of the panes (3D Slicer's). */

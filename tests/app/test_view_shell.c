@@ -4,7 +4,7 @@
 #define FOLDER ANG_TEST_TMP "/view_shell"
 #include "tests/app/viewer_hands.h"
 
-#include "ui/theme.h"
+#include "ui/toolkit/theme.h"
 
 #define PHANTOM FOLDER "/phantom"
 

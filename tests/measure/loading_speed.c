@@ -3,7 +3,7 @@
 #include "core/base/clock.h"
 #include "core/base/median.h"
 #include "io/load.h"
-#include "ui/loading.h"
+#include "ui/host/loading.h"
 
 #include <stdio.h>
 #include <stdlib.h>

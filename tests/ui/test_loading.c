@@ -3,8 +3,8 @@
 
 #ifdef ANG_WITH_WINDOW
 
-#include "ui/loading.h"
-#include "ui/surveying.h"
+#include "ui/host/loading.h"
+#include "ui/host/surveying.h"
 
 #include <stdlib.h>
 #include <string.h>

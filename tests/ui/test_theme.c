@@ -1,7 +1,7 @@
 /* Both themes can be read: WCAG 2.1's contrasts, over every pair of roles. */
 #include "tests/core/fixtures.h"
 
-#include "ui/theme.h"
+#include "ui/toolkit/theme.h"
 
 #include <stddef.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #define ANG_UI_SERIES_BROWSER_H
 
 #include "core/render/painter.h"
-#include "ui/surveying.h"
+#include "ui/host/surveying.h"
 
 /* Zero-initialise; free with ang_series_browser_clear. */
 typedef struct ang_series_browser {

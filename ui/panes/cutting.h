@@ -2,9 +2,9 @@
 #ifndef ANG_UI_CUTTING_H
 #define ANG_UI_CUTTING_H
 
-#include "ui/gui.h"
 #include "ui/state/clip_geometry.h"
 #include "ui/state/crop_geometry.h"
+#include "ui/toolkit/gui.h"
 
 /* What of it a hand can take hold of. */
 typedef enum ang_grip_kind { ANG_CUTTING_NONE, ANG_CUTTING_FACES, ANG_CUTTING_PLANE, ANG_CUTTING_TIP } ang_grip_kind;

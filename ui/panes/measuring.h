@@ -2,8 +2,8 @@
 #ifndef ANG_UI_MEASURING_H
 #define ANG_UI_MEASURING_H
 
-#include "ui/gui.h"
 #include "ui/state/measure_marks.h"
+#include "ui/toolkit/gui.h"
 
 typedef struct ang_measuring {
     ang_measure_kind kind;   /* that the tool makes */

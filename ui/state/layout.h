@@ -3,7 +3,7 @@
 #ifndef ANG_UI_LAYOUT_H
 #define ANG_UI_LAYOUT_H
 
-#include "ui/gui.h"
+#include "ui/toolkit/gui.h"
 
 #include <stdbool.h>
 

@@ -6,8 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/render/painter.h"
-#include "ui/theme.h"
 #include "ui/toolkit/input.h"
+#include "ui/toolkit/theme.h"
 #include "ui/toolkit/window.h"
 
 typedef struct ang_gui ang_gui;

@@ -1,4 +1,4 @@
-#include "ui/loading.h"
+#include "ui/host/loading.h"
 
 #include "core/base/clock.h"
 #include "core/base/memory.h"

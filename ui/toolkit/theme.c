@@ -1,4 +1,4 @@
-#include "ui/theme.h"
+#include "ui/toolkit/theme.h"
 
 #include <math.h>
 

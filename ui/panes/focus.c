@@ -1,4 +1,4 @@
-#include "ui/focus.h"
+#include "ui/panes/focus.h"
 
 #include "ui/viewer_private.h"
 

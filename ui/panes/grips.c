@@ -1,4 +1,4 @@
-#include "ui/grips.h"
+#include "ui/panes/grips.h"
 
 #include "ui/viewer_private.h"
 

@@ -1,4 +1,4 @@
-#include "ui/settings.h"
+#include "ui/host/settings.h"
 
 #include "ui/viewer_private.h"
 

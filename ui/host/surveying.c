@@ -1,4 +1,4 @@
-#include "ui/surveying.h"
+#include "ui/host/surveying.h"
 
 #include "ui/toolkit/window.h"
 

@@ -1,4 +1,4 @@
-#include "ui/palette.h"
+#include "ui/actions/palette.h"
 
 #include "ui/state/search.h"
 #include "ui/viewer_private.h"
