@@ -1,6 +1,11 @@
 /* The series that is shown: from opening it to letting it go. */
-#include "ui/panes/crosshair.h"
+#include "ui/study.h"
+
+#include "ui/host/state_files.h"
+#include "ui/panels/transfer_editor.h"
+#include "ui/panes/planes.h"
 #include "ui/panes/playing.h"
+#include "ui/viewer_private.h"
 
 #include <math.h>
 #include <stdio.h>

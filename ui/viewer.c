@@ -1,8 +1,18 @@
-#include "ui/panes/identity.h"
-#include "ui/panes/playing.h"
+#include "ui/viewer.h"
 
 #include "core/base/clock.h"
 #include "core/base/memory.h"
+#include "ui/actions/keys.h"
+#include "ui/actions/menus.h"
+#include "ui/dialogs/messages.h"
+#include "ui/panels/panel.h"
+#include "ui/panels/transfer_editor.h"
+#include "ui/panes/identity.h"
+#include "ui/panes/overlay.h"
+#include "ui/panes/playing.h"
+#include "ui/panes/volume_pane.h"
+#include "ui/study.h"
+#include "ui/viewer_private.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -13,11 +23,6 @@
 static const double message_seconds = 6;
 /* After the one that an event needs: lists and messages measure themselves in one frame and show in a later one. */
 enum { settling_frames = 2 };
-
-const char *ang_tool_name(ang_tool tool) {
-    static const char *const names[ANG_TOOLS] = {"window", "crosshair", "scroll", "pan", "crop", "measure"};
-    return names[tool];
-}
 
 void ang_viewer_say(ang_viewer *viewer, bool bad, const char *format, ...) {
     va_list args;
@@ -166,7 +171,7 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
     if (!ang_gui_begin(viewer->gui, &viewer->input, err)) return false;
     viewer->typing = ang_gui_typing(viewer->gui);
     if (viewer->message[0] && viewer->input.time_seconds > viewer->message_until) viewer->message[0] = '\0';
-    ang_actions_keys(viewer);
+    ang_keys(viewer);
     ang_playing_step(viewer);
     ang_shot_pose(viewer);
     layout(viewer);

@@ -38,8 +38,6 @@ typedef struct ang_study {
     void *handle;                        /* the host's */
 } ang_study;
 
-typedef enum ang_pane { ANG_PANE_AXIAL, ANG_PANE_CORONAL, ANG_PANE_SAGITTAL, ANG_PANE_VOLUME, ANG_PANES } ang_pane;
-
 /* What the viewer shows, for tests and for those who repeat a picture. Borrows. */
 typedef struct ang_viewer_state {
     const char *phase; /* "empty", "loading", "ready", "failed" */

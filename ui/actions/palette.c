@@ -1,6 +1,9 @@
 #include "ui/actions/palette.h"
 
+#include "ui/actions/actions.h"
+#include "ui/actions/window_presets.h"
 #include "ui/state/search.h"
+#include "ui/study.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>

@@ -1,8 +1,10 @@
-/* The file browser's state. */
+/* Choosing a file or folder to open. */
 #ifndef ANG_UI_FILE_BROWSER_H
 #define ANG_UI_FILE_BROWSER_H
 
 #include "ui/state/file_list.h"
+
+typedef struct ang_viewer ang_viewer;
 
 enum { ANG_PATH_SIZE = 4096 };
 
@@ -22,5 +24,9 @@ typedef struct ang_file_browser {
     bool was_folder;           /* `path` ended with a slash before this frame's keys */
     bool follow;               /* the list is to scroll to the chosen row */
 } ang_file_browser;
+
+void ang_file_browser_open(ang_viewer *viewer);
+void ang_file_browser_show(ang_viewer *viewer);
+void ang_file_browser_clear(ang_file_browser *files);
 
 #endif

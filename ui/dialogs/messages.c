@@ -1,4 +1,8 @@
 /* What stands in the middle of the window: loading, a failure, what to open, what loading found. */
+#include "ui/dialogs/messages.h"
+
+#include "ui/dialogs/help.h"
+#include "ui/dialogs/load_report.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>

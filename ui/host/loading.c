@@ -2,7 +2,6 @@
 
 #include "core/base/clock.h"
 #include "core/base/memory.h"
-#include "ui/toolkit/window.h"
 
 #include <stdio.h>
 #include <stdlib.h>

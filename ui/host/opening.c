@@ -1,5 +1,9 @@
 /* From what is asked for to a study that is shown: one loading at a time; the study before stays until then. */
+#include "ui/host/opening.h"
+
 #include "core/base/memory.h"
+#include "ui/host/state_files.h"
+#include "ui/study.h"
 #include "ui/viewer_private.h"
 
 #include <stdio.h>

@@ -1,4 +1,6 @@
 /* Pictures to files, through the host. */
+#include "ui/host/saving.h"
+
 #include "core/base/memory.h"
 #include "ui/viewer_private.h"
 
@@ -17,8 +19,18 @@ static void save(ang_viewer *viewer, const char *what, const ang_image *image, b
     }
 }
 
-void ang_shot_ask(ang_viewer *viewer, int pane) {
+static void ask(ang_viewer *viewer, int pane) {
     viewer->shot = (ang_shot){.wanted = true, .pane = pane, .frame = viewer->frames};
+}
+
+void ang_shot_ask_pane(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ask(viewer, viewer->focus.pane);
+}
+
+void ang_shot_ask_window(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ask(viewer, -1);
 }
 
 static bool waits_for_volume(const ang_viewer *viewer) {
@@ -65,7 +77,6 @@ void ang_shot_take(ang_viewer *viewer) {
     viewer->redraws = 2; /* with all that was left out */
 }
 
-/* The 3D pane's picture only once it is refined. */
 void ang_save_pane(ang_viewer *viewer) {
     ang_error err = {0};
     if (viewer->save_pane == ANG_PANE_VOLUME) {
@@ -83,4 +94,10 @@ void ang_save_pane(ang_viewer *viewer) {
         ang_image_clear(&image);
     }
     viewer->save_wanted = false;
+}
+
+void ang_save_pane_ask(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->save_wanted = true;
+    viewer->save_pane = (ang_pane)viewer->focus.pane;
 }

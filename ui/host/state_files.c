@@ -1,13 +1,13 @@
 /* Sessions: from what is shown, and back to it; state files through the host. */
-#include "ui/panes/crosshair.h"
+#include "ui/host/state_files.h"
+
+#include "ui/panes/planes.h"
+#include "ui/study.h"
+#include "ui/viewer_private.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-const char *ang_volume_method_choice(const ang_viewer *viewer) {
-    return viewer->volume.choice > 0 ? ang_methods()[viewer->volume.choice - 1]->name : "auto";
-}
 
 /* To the last digit where it is a place for it as it stands. */
 static void point_at(ang_viewer *viewer, ang_vec3 crosshair) {

@@ -1,7 +1,5 @@
 #include "ui/host/surveying.h"
 
-#include "ui/toolkit/window.h"
-
 #include <string.h>
 
 static bool update(void *context, const char *what, double fraction) {

@@ -1,5 +1,12 @@
 /* The panel at the side: presets, rendering, slices. */
+#include "ui/panels/panel.h"
+
+#include "ui/panels/cutting_panel.h"
+#include "ui/panels/measures.h"
+#include "ui/panels/presets.h"
+#include "ui/panels/transfer_editor.h"
 #include "ui/panes/identity.h"
+#include "ui/viewer_private.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,7 @@
 /* The panel's part with the presets: which one, its pictures, compared with what is saved, saved, deleted. */
+#include "ui/panels/presets.h"
+
+#include "ui/study.h"
 #include "ui/viewer_private.h"
 
 #include <stdio.h>

@@ -1,5 +1,9 @@
 /* The transfer function over the histogram: what the hands do with points and ranges, and the numbers below. */
+#include "ui/panels/transfer_editor.h"
+
+#include "ui/panels/transfer_keys.h"
 #include "ui/panels/transfer_plot.h"
+#include "ui/viewer_private.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -278,7 +282,7 @@ static void numbers(ang_viewer *viewer) {
     ang_gui_tooltip(gui, several ? "One colour for all chosen points" : "Colour of the point");
     ang_gui_same_line(gui);
     snprintf(name, sizeof name, several ? "Delete %d##delete" : "Delete##delete", count);
-    if (ang_gui_button(gui, name, remove, document->count > 1)) ang_transfer_editor_delete(viewer);
+    if (ang_gui_button(gui, name, remove, document->count > 1)) ang_curve_delete(viewer, 0);
 }
 
 /* What the slices show of it, and how much that is. */

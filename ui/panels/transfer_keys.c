@@ -1,18 +1,16 @@
 /* The transfer-function editor by keys alone. */
+#include "ui/panels/transfer_keys.h"
+
 #include "core/scene/annotation.h"
+#include "ui/panels/transfer_editor.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
 
 bool ang_transfer_editor_has_keys(const ang_viewer *viewer) { return viewer->ready && viewer->editing.focused; }
 
-void ang_transfer_editor_focus(ang_viewer *viewer) {
-    viewer->editing.focused = !viewer->editing.focused;
-    /* A move of the pointer before the key does not take them away again. */
-    viewer->editing.x = viewer->input.x;
-    viewer->editing.y = viewer->input.y;
-    if (viewer->editing.focused) ang_gui_leave_widgets(viewer->gui);
-    if (viewer->editing.focused && viewer->point < 0) ang_transfer_editor_step(viewer, 1, false);
+bool ang_curve_can_delete(const ang_viewer *viewer) {
+    return ang_transfer_editor_has_keys(viewer) && viewer->point >= 0;
 }
 
 /* So that what is moved is seen. */
@@ -24,7 +22,7 @@ static void show_point(ang_viewer *viewer) {
     viewer->editor_high = range.high;
 }
 
-void ang_transfer_editor_step(ang_viewer *viewer, int by, bool adds) {
+static void step(ang_viewer *viewer, int by, bool adds) {
     int count = viewer->document.count, now = viewer->point;
     int next = now < 0 ? (by > 0 ? 0 : count - 1) : now + by;
     if (next < 0 || next >= count) return;
@@ -36,18 +34,34 @@ void ang_transfer_editor_step(ang_viewer *viewer, int by, bool adds) {
     show_point(viewer);
 }
 
-void ang_transfer_editor_choose_all(ang_viewer *viewer) {
+void ang_curve_step(ang_viewer *viewer, int by) { step(viewer, by, false); }
+void ang_curve_step_adding(ang_viewer *viewer, int by) { step(viewer, by, true); }
+
+void ang_curve_edit(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->editing.focused = !viewer->editing.focused;
+    /* A move of the pointer before the key does not take them away again. */
+    viewer->editing.x = viewer->input.x;
+    viewer->editing.y = viewer->input.y;
+    if (viewer->editing.focused) ang_gui_leave_widgets(viewer->gui);
+    if (viewer->editing.focused && viewer->point < 0) step(viewer, 1, false);
+}
+
+void ang_curve_choose_all(ang_viewer *viewer, int argument) {
+    (void)argument;
     ang_point_set_all(&viewer->editing.chosen, &viewer->document);
     if (viewer->point < 0) viewer->point = 0;
 }
 
-void ang_transfer_editor_delete(ang_viewer *viewer) {
+void ang_curve_delete(ang_viewer *viewer, int argument) {
+    (void)argument;
     ang_points_delete(&viewer->document, &viewer->editing.chosen);
     viewer->point = -1;
 }
 
 /* Between the chosen point and the next one, else in the middle of what is shown. */
-void ang_transfer_editor_insert(ang_viewer *viewer) {
+void ang_curve_insert(ang_viewer *viewer, int argument) {
+    (void)argument;
     ang_document *document = &viewer->document;
     double width = viewer->editor_high - viewer->editor_low, hu = viewer->editor_low + width / 2;
     int at = viewer->point;
@@ -62,6 +76,17 @@ void ang_transfer_editor_insert(ang_viewer *viewer) {
     else
         ang_transfer_editor_choose(viewer, added);
     show_point(viewer);
+}
+
+void ang_curve_zoom(ang_viewer *viewer, int direction) {
+    double about =
+        viewer->point >= 0 ? viewer->document.points[viewer->point].hu : (viewer->editor_low + viewer->editor_high) / 2;
+    ang_transfer_editor_zoom(viewer, about, direction > 0 ? 0.5 : 2);
+}
+
+void ang_curve_show_all(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_transfer_editor_show_all(viewer);
 }
 
 static void move(ang_viewer *viewer, int across, int up, bool fine) {
@@ -82,7 +107,7 @@ bool ang_transfer_editor_key(ang_viewer *viewer, int key, unsigned modifiers) {
     if (viewer->point >= 0)
         move(viewer, across, up, (modifiers & ANG_MOD_SHIFT) != 0);
     else if (across != 0)
-        ang_transfer_editor_step(viewer, across, false);
+        step(viewer, across, false);
     return true;
 }
 

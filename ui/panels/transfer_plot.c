@@ -1,5 +1,7 @@
 #include "ui/panels/transfer_plot.h"
 
+#include "ui/viewer_private.h"
+
 #include <math.h>
 #include <stdio.h>
 

@@ -2,7 +2,9 @@
 #ifndef ANG_UI_TRANSFER_PLOT_H
 #define ANG_UI_TRANSFER_PLOT_H
 
-#include "ui/viewer_private.h"
+#include "ui/toolkit/rect.h"
+
+typedef struct ang_viewer ang_viewer;
 
 /* The curve's rectangle, the strip of colours below it and the numbers below that; pixels of the window. */
 typedef struct ang_plot {

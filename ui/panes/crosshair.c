@@ -1,5 +1,8 @@
 #include "ui/panes/crosshair.h"
 
+#include "ui/panes/overlay.h"
+#include "ui/viewer_private.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -99,25 +102,6 @@ void ang_crosshair_turn(ang_viewer *viewer, ang_pane pane, const ang_slice_frame
     double quarter = 90 * round(wanted / 90);
     if (!fine && viewer->range[pane].whole && fabs(wanted - quarter) <= snap_deg) wanted = quarter;
     viewer->document.turn = ang_turn_about(from, frame->axes.inward, wanted - start);
-}
-
-void ang_planes_take(ang_viewer *viewer) {
-    viewer->turn = viewer->document.turn;
-    for (int i = 0; i < ANG_ORIENTATIONS; i++)
-        viewer->range[i] = ang_slice_range_of(viewer->study.volume, &viewer->turn, (ang_orientation)i);
-}
-
-void ang_planes_follow(ang_viewer *viewer) {
-    const ang_turn *turn = &viewer->document.turn;
-    const ang_volume *volume = viewer->study.volume;
-    if (ang_turn_same(&viewer->turn, turn)) return;
-    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
-        ang_slice_axes before = ang_slice_axes_of(&viewer->turn, (ang_orientation)i);
-        ang_slice_axes after = ang_slice_axes_of(turn, (ang_orientation)i);
-        ang_slice_keep_place(&viewer->slice[i].view, volume, viewer->crosshair, &before, &after);
-    }
-    ang_planes_take(viewer);
-    ang_viewer_point_at(viewer, viewer->crosshair);
 }
 
 static void stretch(ang_viewer *viewer, ang_rect rect, const cut *cut, double from, double to, ang_ink ink) {

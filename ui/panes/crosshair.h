@@ -3,13 +3,11 @@
 #ifndef ANG_UI_CROSSHAIR_H
 #define ANG_UI_CROSSHAIR_H
 
-#include "ui/viewer_private.h"
+#include "ui/state/layout.h"
+#include "ui/state/slice_geometry.h"
+#include "ui/toolkit/gui.h"
 
-/* Brings slices alone up to date with the document's turn, for what is shown anew. */
-void ang_planes_take(ang_viewer *viewer);
-/* Brings slices, views and crosshair up to date with the document's turn: what lies under the crosshair stays where it
- * is in each pane. Cheap where nothing has changed. */
-void ang_planes_follow(ang_viewer *viewer);
+typedef struct ang_viewer ang_viewer;
 
 /* Whether there is a handle at a place of the pane. */
 bool ang_crosshair_handle_at(const ang_viewer *viewer, ang_pane pane, const ang_slice_frame *frame, double x, double y);

@@ -1,4 +1,6 @@
 /* The hands on what cuts the 3D picture: the crop box and the clip plane. */
+#include "ui/panes/cutting.h"
+
 #include "ui/viewer_private.h"
 
 #include <math.h>
@@ -142,11 +144,6 @@ bool ang_cutting_hands(ang_viewer *viewer, const ang_cutting_pane *pane, const a
     return true;
 }
 
-void ang_crop_toggle(ang_viewer *viewer, int argument) {
-    (void)argument;
-    viewer->document.crop = !viewer->document.crop;
-}
-
 void ang_crop_reset(ang_viewer *viewer, int argument) {
     (void)argument;
     ang_volume_box(viewer->study.volume, &viewer->document.crop_lower, &viewer->document.crop_upper);
@@ -170,3 +167,9 @@ void ang_clip_flip(ang_viewer *viewer, int argument) {
     (void)argument;
     viewer->document.clip = ang_clip_plane_flip(&viewer->document.clip);
 }
+
+bool ang_clip_is_on(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return ang_clip_plane_given(&viewer->document.clip);
+}
+bool ang_clip_can_flip(const ang_viewer *viewer) { return viewer->ready && ang_clip_is_on(viewer, 0); }

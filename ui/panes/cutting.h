@@ -4,6 +4,8 @@
 
 #include "ui/state/clip_geometry.h"
 #include "ui/state/crop_geometry.h"
+
+typedef struct ang_viewer ang_viewer;
 #include "ui/toolkit/gui.h"
 
 /* What of it a hand can take hold of. */
@@ -26,26 +28,26 @@ typedef struct ang_cutting_pane {
     const ang_slice_frame *frame; /* NULL: the 3D pane */
 } ang_cutting_pane;
 
-struct ang_viewer;
 /* Takes hold of a handle where the tool is "crop", and drags it. True while it has one: the drag and the click are its
  * own. For the pane of the gesture, after that has been noted. */
-bool ang_cutting_hands(struct ang_viewer *viewer, const ang_cutting_pane *pane, const ang_canvas *canvas);
-void ang_cutting_draw(struct ang_viewer *viewer, const ang_cutting_pane *pane, const ang_canvas *canvas);
+bool ang_cutting_hands(ang_viewer *viewer, const ang_cutting_pane *pane, const ang_canvas *canvas);
+void ang_cutting_draw(ang_viewer *viewer, const ang_cutting_pane *pane, const ang_canvas *canvas);
 
 /* Where the clip plane's handles are: the foot, and the arrow's tip. */
-ang_vec3 ang_cutting_foot(const struct ang_viewer *viewer);
-ang_vec3 ang_cutting_tip(const struct ang_viewer *viewer, const ang_pane_map *map);
+ang_vec3 ang_cutting_foot(const ang_viewer *viewer);
+ang_vec3 ang_cutting_tip(const ang_viewer *viewer, const ang_pane_map *map);
 /* Radius in mm of the ring around the foot. */
-double ang_cutting_ring(const struct ang_viewer *viewer, const ang_pane_map *map);
+double ang_cutting_ring(const ang_viewer *viewer, const ang_pane_map *map);
 /* What is under (x, y) of the pane. */
-ang_cutting_grip ang_cutting_grip_at(const struct ang_viewer *viewer, const ang_cutting_pane *pane, double x, double y);
+ang_cutting_grip ang_cutting_grip_at(const ang_viewer *viewer, const ang_cutting_pane *pane, double x, double y);
 
-/* Actions; `argument` means nothing. */
-void ang_crop_toggle(struct ang_viewer *viewer, int argument);
-void ang_crop_reset(struct ang_viewer *viewer, int argument);
+/* Actions and what the menu says of them; `argument` means nothing. */
+void ang_crop_reset(ang_viewer *viewer, int argument);
 /* A clip plane through the crosshair that cuts away what is before it. */
-void ang_clip_face_viewer(struct ang_viewer *viewer, int argument);
-void ang_clip_toggle(struct ang_viewer *viewer, int argument);
-void ang_clip_flip(struct ang_viewer *viewer, int argument);
+void ang_clip_face_viewer(ang_viewer *viewer, int argument);
+void ang_clip_toggle(ang_viewer *viewer, int argument);
+void ang_clip_flip(ang_viewer *viewer, int argument);
+bool ang_clip_is_on(const ang_viewer *viewer, int argument);
+bool ang_clip_can_flip(const ang_viewer *viewer);
 
 #endif

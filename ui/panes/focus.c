@@ -1,10 +1,12 @@
 #include "ui/panes/focus.h"
 
+#include "ui/panes/volume_pane.h"
+#include "ui/study.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
 
-static const double turn_degrees = 5, pan_pixels = 24; /* of a key; pixels at scale 1 */
+static const double turn_degrees = 5, pan_pixels = 24, zoom_step = 1.15; /* of a key; pixels at scale 1 */
 
 void ang_focus_follow(ang_viewer *viewer) {
     ang_focus *focus = &viewer->focus;
@@ -82,7 +84,8 @@ bool ang_focus_arrow(ang_viewer *viewer, int key, unsigned modifiers) {
     return true;
 }
 
-void ang_focus_zoom(ang_viewer *viewer, double factor) {
+void ang_focus_zoom(ang_viewer *viewer, int steps) {
+    double factor = pow(zoom_step, steps);
     int pane = viewer->focus.pane;
     if (pane == ANG_PANE_VOLUME) {
         ang_volume_zoom(viewer, factor);
@@ -92,4 +95,30 @@ void ang_focus_zoom(ang_viewer *viewer, double factor) {
     ang_slice_view *view = &viewer->slice[pane].view;
     ang_slice_frame frame = ang_slice_frame_of(viewer, (ang_orientation)pane, rect);
     ang_slice_zoom(view, &frame, rect.width / 2, rect.height / 2, factor);
+}
+
+void ang_focus_scroll(ang_viewer *viewer, int slices) {
+    if (viewer->focus.pane == ANG_PANE_VOLUME)
+        ang_focus_zoom(viewer, slices);
+    else
+        ang_slice_scroll(viewer, (ang_orientation)viewer->focus.pane, slices);
+}
+
+void ang_focus_reset(ang_viewer *viewer, int all) {
+    for (int i = 0; i < ANG_PANES; i++) {
+        if (!all && i != viewer->focus.pane) continue;
+        if (i == ANG_PANE_VOLUME)
+            viewer->document.view = ang_viewer_first_view;
+        else
+            viewer->slice[i].view = ang_slice_view_default;
+    }
+}
+
+void ang_focus_maximise(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->maximised = viewer->maximised >= 0 ? -1 : viewer->focus.pane;
+}
+bool ang_focus_maximised(const ang_viewer *viewer, int argument) {
+    (void)argument;
+    return viewer->maximised >= 0;
 }

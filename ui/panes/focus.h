@@ -14,11 +14,15 @@ typedef struct ang_focus {
 
 /* After the panes of a frame: the pointer may have moved onto another one. */
 void ang_focus_follow(ang_viewer *viewer);
-/* To the next (1) or the last (-1) pane; the side panel is one of them. */
-void ang_focus_cycle(ang_viewer *viewer, int by);
 /* Arrows with modifiers: the crosshair or the camera, pan, gaps. False where the key is none of those. */
 bool ang_focus_arrow(ang_viewer *viewer, int key, unsigned modifiers);
-/* Magnifies what the pane shows about its middle. */
-void ang_focus_zoom(ang_viewer *viewer, double factor);
+
+/* Actions, on that pane. */
+void ang_focus_cycle(ang_viewer *viewer, int by); /* the next (1) or the last (-1); the side panel is one of them */
+void ang_focus_scroll(ang_viewer *viewer, int slices);     /* the volume is zoomed instead */
+void ang_focus_zoom(ang_viewer *viewer, int steps);        /* about its middle */
+void ang_focus_reset(ang_viewer *viewer, int all);         /* its view; 1: that of each pane */
+void ang_focus_maximise(ang_viewer *viewer, int argument); /* and back */
+bool ang_focus_maximised(const ang_viewer *viewer, int argument);
 
 #endif

@@ -62,3 +62,8 @@ void ang_grips_step(ang_viewer *viewer, int right, int down) {
     double by = ang_gui_px(viewer->gui, step);
     grips->layout = ang_layout_drag(&grips->layout, &grips->frame, ANG_GRIP_CROSS, right * by, down * by);
 }
+
+void ang_grips_even(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->grips.layout = ang_layout_even(&viewer->grips.layout, ANG_GRIP_CROSS);
+}

@@ -19,5 +19,7 @@ void ang_grips_show(ang_viewer *viewer, const ang_layout_places *places);
 bool ang_grips_cancel(ang_viewer *viewer);
 /* Moves the gaps between the panes by steps of a key. */
 void ang_grips_step(ang_viewer *viewer, int right, int down);
+/* Action: panes of equal size. */
+void ang_grips_even(ang_viewer *viewer, int argument);
 
 #endif

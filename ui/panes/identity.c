@@ -1,5 +1,8 @@
 #include "ui/panes/identity.h"
 
+#include "ui/panes/overlay.h"
+#include "ui/viewer_private.h"
+
 #include <stdio.h>
 
 bool ang_identity_left_out(const ang_viewer *viewer) {

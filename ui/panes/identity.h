@@ -3,7 +3,11 @@
 #ifndef ANG_UI_IDENTITY_H
 #define ANG_UI_IDENTITY_H
 
-#include "ui/viewer_private.h"
+#include "ui/toolkit/rect.h"
+
+#include <stdbool.h>
+
+typedef struct ang_viewer ang_viewer;
 
 /* Whether names, descriptions and the like may be drawn in this frame. */
 bool ang_identity_shown(const ang_viewer *viewer);

@@ -1,4 +1,7 @@
 /* Measuring: what the hands do with the tool. */
+#include "ui/panes/measuring.h"
+
+#include "ui/study.h"
 #include "ui/viewer_private.h"
 
 #include <string.h>

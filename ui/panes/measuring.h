@@ -1,9 +1,12 @@
-/* What the hands are measuring: state of the tool. The measures themselves are the document's. */
+/* Measuring: what the hands do with the tool. The measures themselves are the document's. */
 #ifndef ANG_UI_MEASURING_H
 #define ANG_UI_MEASURING_H
 
+#include "ui/state/layout.h"
 #include "ui/state/measure_marks.h"
 #include "ui/toolkit/gui.h"
+
+typedef struct ang_viewer ang_viewer;
 
 typedef struct ang_measuring {
     ang_measure_kind kind;   /* that the tool makes */
@@ -21,5 +24,29 @@ typedef struct ang_measuring {
     ang_region_values values[ANG_MEASURES + 1];
     ang_measurement measured[ANG_MEASURES + 1];
 } ang_measuring;
+
+/* Nothing is being made or chosen: for another study. */
+void ang_measuring_start(ang_viewer *viewer);
+/* Takes the tool, for measures of this kind. */
+void ang_measuring_take(ang_viewer *viewer, ang_measure_kind kind);
+/* Gives up what is half made; whether there was any. */
+bool ang_measuring_cancel(ang_viewer *viewer);
+/* What the hands do on a pane; only the tool's. */
+void ang_measuring_slice(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame);
+void ang_measuring_volume(ang_viewer *viewer, const ang_canvas *canvas);
+int ang_measuring_chosen(const ang_viewer *viewer); /* index into the document's measures; -1: none */
+void ang_measuring_choose(ang_viewer *viewer, int index);
+/* Chooses it and brings the crosshair to its middle. */
+void ang_measuring_jump(ang_viewer *viewer, int index);
+void ang_measuring_delete(ang_viewer *viewer, int index);
+/* Of the document's measures, one each (only those of regions mean something); and of the one being made. */
+const ang_region_values *ang_measuring_values(ang_viewer *viewer);
+const ang_region_values *ang_measuring_pending_values(ang_viewer *viewer);
+/* Whether a slice pane shows a measure, and how it lies to the slice. */
+bool ang_measuring_shows(const ang_viewer *viewer, ang_pane pane, const ang_slice_frame *frame, int index,
+                         ang_presence *presence);
+/* What can be grabbed under the pointer (a handle or ANG_MARK_*), and of which measure. */
+int ang_measuring_under(const ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame,
+                        int *index);
 
 #endif

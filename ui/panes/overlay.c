@@ -1,5 +1,8 @@
 /* What is written on the panes, and the status line. */
+#include "ui/panes/overlay.h"
+
 #include "core/scene/annotation.h"
+#include "ui/study.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>

@@ -1,18 +1,26 @@
 #include "ui/panes/playing.h"
 
 #include "core/base/clock.h"
+#include "ui/panes/overlay.h"
+#include "ui/viewer_private.h"
 
 #include <math.h>
 #include <stdio.h>
 
 static const double degrees_a_step = 1;
 
-void ang_playing_toggle(ang_viewer *viewer, ang_pane pane) {
+void ang_playing_toggle(ang_viewer *viewer, int argument) {
+    (void)argument;
     ang_cine *cine = &viewer->cine;
-    if (cine->running && cine->pane == (int)pane)
+    int pane = viewer->focus.pane;
+    if (cine->running && cine->pane == pane)
         ang_playing_stop(viewer);
     else
-        ang_cine_start(cine, (int)pane, viewer->input.time_seconds);
+        ang_cine_start(cine, pane, viewer->input.time_seconds);
+}
+
+void ang_playing_faster(ang_viewer *viewer, int direction) {
+    ang_cine_set_faster(&viewer->cine, direction, viewer->input.time_seconds);
 }
 
 void ang_playing_stop(ang_viewer *viewer) { viewer->cine.running = false; }

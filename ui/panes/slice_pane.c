@@ -1,9 +1,16 @@
 /* A pane with a slice: its picture, and what the hands do on it. */
+#include "ui/panes/slice_pane.h"
+
 #include "core/base/memory.h"
 #include "core/scene/annotation.h"
 #include "ui/panes/crosshair.h"
 #include "ui/panes/identity.h"
+#include "ui/panes/measure_drawing.h"
+#include "ui/panes/overlay.h"
+#include "ui/panes/planes.h"
 #include "ui/panes/playing.h"
+#include "ui/study.h"
+#include "ui/viewer_private.h"
 
 #include <math.h>
 #include <stdio.h>

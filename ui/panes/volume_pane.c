@@ -1,7 +1,14 @@
 /* The pane with the volume rendering, and what the hands do on it. */
+#include "ui/panes/volume_pane.h"
+
 #include "core/scene/annotation.h"
 #include "ui/panes/identity.h"
+#include "ui/panes/measure_drawing.h"
+#include "ui/panes/orientation.h"
+#include "ui/panes/overlay.h"
 #include "ui/panes/playing.h"
+#include "ui/study.h"
+#include "ui/viewer_private.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,10 @@
 /* The volume rendering's picture: coarse within a budget of time while things move, fine when they rest. */
+#include "ui/panes/volume_picture.h"
+
 #include "core/base/clock.h"
 #include "core/base/memory.h"
 #include "core/scene/annotation.h"
+#include "ui/panels/presets.h"
 #include "ui/panes/interruption.h"
 #include "ui/viewer_private.h"
 
@@ -55,6 +58,10 @@ void ang_volume_picture_clear(ang_viewer *viewer) {
     free(volume->rgba);
     ang_painter_forget(viewer->painter, &volume->texture);
     *volume = (ang_volume_picture){.choice = choice, .version = version};
+}
+
+const char *ang_volume_method_choice(const ang_viewer *viewer) {
+    return viewer->volume.choice > 0 ? ang_methods()[viewer->volume.choice - 1]->name : "auto";
 }
 
 void ang_volume_set_method(ang_viewer *viewer, int choice) {

@@ -51,7 +51,7 @@ ang_layout_places ang_layout_place(const ang_layout *layout, const ang_layout_fr
     ang_rect all = places.panes;
     double width = before_gap(fmax(all.width - wide, 0), layout->across, round(least_across * frame->scale));
     double height = before_gap(fmax(tall - wide, 0), layout->down, round(least_down * frame->scale));
-    for (int i = 0; i < ANG_LAYOUT_PANES; i++) {
+    for (int i = 0; i < ANG_PANES; i++) {
         bool right = i % 2, low = i / 2;
         places.pane[i] =
             (ang_rect){right ? all.x + width + wide : all.x, low ? all.y + height + wide : all.y,

@@ -3,11 +3,11 @@
 #ifndef ANG_UI_LAYOUT_H
 #define ANG_UI_LAYOUT_H
 
-#include "ui/toolkit/gui.h"
+#include "ui/toolkit/rect.h"
 
 #include <stdbool.h>
 
-enum { ANG_LAYOUT_PANES = 4 };
+typedef enum ang_pane { ANG_PANE_AXIAL, ANG_PANE_CORONAL, ANG_PANE_SAGITTAL, ANG_PANE_VOLUME, ANG_PANES } ang_pane;
 
 /* What the user has chosen. */
 typedef struct ang_layout {
@@ -35,7 +35,7 @@ typedef struct ang_layout_frame {
 
 /* Rectangles of whole pixels; of no size: not shown. Grips are wider than the gaps, to be hit more easily. */
 typedef struct ang_layout_places {
-    ang_rect panel, panes, pane[ANG_LAYOUT_PANES], status;
+    ang_rect panel, panes, pane[ANG_PANES], status;
     ang_rect grip[ANG_GRIPS];
 } ang_layout_places;
 

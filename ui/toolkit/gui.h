@@ -7,14 +7,11 @@
 #include "core/base/error.h"
 #include "core/render/painter.h"
 #include "ui/toolkit/input.h"
+#include "ui/toolkit/rect.h"
 #include "ui/toolkit/theme.h"
 #include "ui/toolkit/window.h"
 
 typedef struct ang_gui ang_gui;
-
-typedef struct ang_rect {
-    double x, y, width, height;
-} ang_rect;
 
 /* `font`: a TrueType file, NULL: a built-in font of Latin letters. The window serves pointer and clipboard. Not thread
  * safe; one at a time in a process. NULL with ANG_LIMIT. */

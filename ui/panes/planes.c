@@ -1,0 +1,39 @@
+#include "ui/panes/planes.h"
+
+#include "ui/study.h"
+#include "ui/viewer_private.h"
+
+void ang_planes_take(ang_viewer *viewer) {
+    viewer->turn = viewer->document.turn;
+    for (int i = 0; i < ANG_ORIENTATIONS; i++)
+        viewer->range[i] = ang_slice_range_of(viewer->study.volume, &viewer->turn, (ang_orientation)i);
+}
+
+void ang_planes_follow(ang_viewer *viewer) {
+    const ang_turn *turn = &viewer->document.turn;
+    const ang_volume *volume = viewer->study.volume;
+    if (ang_turn_same(&viewer->turn, turn)) return;
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
+        ang_slice_axes before = ang_slice_axes_of(&viewer->turn, (ang_orientation)i);
+        ang_slice_axes after = ang_slice_axes_of(turn, (ang_orientation)i);
+        ang_slice_keep_place(&viewer->slice[i].view, volume, viewer->crosshair, &before, &after);
+    }
+    ang_planes_take(viewer);
+    ang_viewer_point_at(viewer, viewer->crosshair);
+}
+
+void ang_planes_turn(ang_viewer *viewer, int degrees) {
+    int pane = viewer->focus.pane;
+    ang_orientation orientation = pane < ANG_PANE_VOLUME ? (ang_orientation)pane : ANG_AXIAL;
+    ang_slice_axes axes = ang_slice_axes_of(&viewer->document.turn, orientation);
+    viewer->document.turn = ang_turn_about(&viewer->document.turn, axes.inward, degrees);
+}
+
+void ang_planes_straighten(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->document.turn = ang_turn_none;
+}
+
+bool ang_planes_turned(const ang_viewer *viewer) {
+    return viewer->ready && !ang_turn_same(&viewer->document.turn, &ang_turn_none);
+}

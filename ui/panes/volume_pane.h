@@ -1,0 +1,14 @@
+/* The pane with the volume rendering. */
+#ifndef ANG_UI_VOLUME_PANE_H
+#define ANG_UI_VOLUME_PANE_H
+
+#include "ui/toolkit/rect.h"
+
+typedef struct ang_viewer ang_viewer;
+
+void ang_volume_pane(ang_viewer *viewer, ang_rect rect);
+/* About the pane's middle; by pixels. */
+void ang_volume_zoom(ang_viewer *viewer, double factor);
+void ang_volume_pan(ang_viewer *viewer, double right, double down);
+
+#endif
