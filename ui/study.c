@@ -34,12 +34,6 @@ void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm) {
     viewer->crosshair = mm;
 }
 
-void ang_viewer_choose_preset(ang_viewer *viewer, const ang_preset *preset) {
-    ang_document_take_preset(&viewer->document, preset);
-    viewer->chosen = viewer->document;
-    viewer->point = -1;
-}
-
 void ang_viewer_file_window(const ang_viewer *viewer, double *centre, double *width) {
     const ang_study *study = &viewer->study;
     *centre = study->hounsfield ? 40 : (viewer->editor_low + viewer->editor_high) / 2;
@@ -47,12 +41,6 @@ void ang_viewer_file_window(const ang_viewer *viewer, double *centre, double *wi
     if (!isfinite(study->window_centre) || !(study->window_width > 0)) return;
     *centre = study->window_centre;
     *width = study->window_width;
-}
-
-const ang_preset *ang_preset_named(const ang_viewer *viewer, const char *name) {
-    for (int i = 0; viewer->host->presets[i]; i++)
-        if (strcmp(viewer->host->presets[i]->name, name) == 0) return viewer->host->presets[i];
-    return NULL;
 }
 
 /* The preset to begin with; one of the host's making where the values are no Hounsfield units. */

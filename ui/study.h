@@ -10,8 +10,6 @@ extern const ang_view ang_viewer_first_view;
 /* Shows a study, which is taken, instead of the one before. */
 void ang_study_show(ang_viewer *viewer, const ang_study *study, const char *wanted_preset);
 void ang_study_close(ang_viewer *viewer);
-const ang_preset *ang_preset_named(const ang_viewer *viewer, const char *name); /* NULL: there is none */
-void ang_viewer_choose_preset(ang_viewer *viewer, const ang_preset *preset);
 /* The crosshair to a place, kept within the volume and on slices. */
 void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm);
 /* The window that the file asks for, else one that suits. */

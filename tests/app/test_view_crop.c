@@ -14,25 +14,14 @@ enum { NX = 96, NY = 96, NZ = 48 };
 static ang_volume *volume;
 
 static int opening(void **state) {
-    (void)state;
-    if (open_display() != 0) return -1;
-    if (skipped) return 0;
-    if (run("phantom -o " PHANTOM " --dims 96x96x48 --quiet") != 0) return -1;
-    volume = ang_load(PHANTOM, &(ang_load_options){0}, &(ang_load_report){0}, NULL, NULL);
-    start_viewer(PHANTOM " --preset cta-head");
-    return volume ? 0 : -1;
+    if (open_phantom(state) != 0) return -1;
+    if (!skipped) volume = ang_load(PHANTOM, &(ang_load_options){0}, &(ang_load_report){0}, NULL, NULL);
+    return skipped || volume ? 0 : -1;
 }
 
 static int closing(void **state) {
     ang_volume_free(volume);
     return close_display(state);
-}
-
-static double number_now(const char *path) {
-    cJSON *state = read_state();
-    double value = number_at(state, path);
-    cJSON_Delete(state);
-    return value;
 }
 
 /* The value of an option in the state's list for `render`. */
@@ -80,12 +69,6 @@ static void place_of(ang_vec3 mm, double *x, double *y) {
 }
 
 static ang_vec3 index_mm(double x, double y, double z) { return ang_mat4_point(&volume->affine, (ang_vec3){x, y, z}); }
-
-/* A drag from one place of the window to another, as near as whole pixels allow. */
-static void drag_between(double x0, double y0, double x1, double y1) {
-    hands("mousemove %ld %ld", lround(x0), lround(y0));
-    drag(1, (int)lround(x1 - x0), (int)lround(y1 - y0));
-}
 
 static void it_opens_whole(void **state) {
     (void)state;
@@ -330,13 +313,6 @@ static void a_session_has_box_and_plane(void **state) {
     }
     assert_true(difference(PICTURES "/angioscope-volume-0006.png", PICTURES "/angioscope-volume-0005.png") <= 0);
     assert_true(difference(PICTURES "/angioscope-volume-0007.png", PICTURES "/angioscope-volume-0005.png") > 50);
-}
-
-static void it_ends_well(void **state) {
-    (void)state;
-    need_window();
-    hands("key ctrl+q");
-    assert_int_equal(wait_for_end(), 0);
 }
 
 int main(void) {

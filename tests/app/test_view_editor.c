@@ -7,15 +7,6 @@
 #define FOLDER ANG_TEST_TMP "/view-editor"
 #include "tests/app/viewer_hands.h"
 
-static int opening(void **state) {
-    (void)state;
-    if (open_display() != 0) return -1;
-    if (skipped) return 0;
-    if (run("phantom -o " FOLDER "/phantom --dims 96x96x48 --quiet") != 0) return -1;
-    start_viewer(FOLDER "/phantom --preset cta-head");
-    return 0;
-}
-
 /* Where the editor draws things. */
 typedef struct plot {
     double low, high, left, top, width, height;
@@ -37,18 +28,6 @@ static int y_of(const plot *plot, double opacity) {
     return (int)lround(plot->top + (1 - sqrt(opacity)) * plot->height);
 }
 
-static void drag_from_to(int x0, int y0, int x1, int y1) {
-    hands("mousemove %d %d", x0, y0);
-    drag(1, x1 - x0, y1 - y0);
-}
-
-static double now(const char *path) {
-    cJSON *state = read_state();
-    double value = number_at(state, path);
-    cJSON_Delete(state);
-    return value;
-}
-
 /* A box around two points, of 300 and 350 HU, and a drag of one of them. */
 static void points_in_a_box_move_together(void **state) {
     (void)state;
@@ -62,11 +41,11 @@ static void points_in_a_box_move_together(void **state) {
     expect_number("editor.hu.1", 325 + (plot.high - 325) * pow(0.85, 6), 20);
     plot = read_plot();
     double per_pixel = (plot.high - plot.low) / plot.width;
-    drag_from_to(x_of(&plot, 325) - (int)(45 / per_pixel), y_of(&plot, 0.6), x_of(&plot, 325) + (int)(45 / per_pixel),
+    drag_between(x_of(&plot, 325) - (int)(45 / per_pixel), y_of(&plot, 0.6), x_of(&plot, 325) + (int)(45 / per_pixel),
                  y_of(&plot, 0.25));
     expect_number("editor.points.0", 4, 0);
     expect_number("editor.points.1", 5, 0);
-    double first = now("preset.points.4.opacity"), second = now("preset.points.5.opacity");
+    double first = number_now("preset.points.4.opacity"), second = number_now("preset.points.5.opacity");
     hands("mousemove %d %d", x_of(&plot, 350), y_of(&plot, second));
     drag(1, 5, -10);
     expect_number("preset.points.4.hu", 300 + 5 * per_pixel, 1e-6);
@@ -95,10 +74,10 @@ static void keys_alone_edit(void **state) {
     hands("key --delay 60 period period period shift+period");
     expect_number("editor.points.0", 3, 0);
     expect_number("editor.points.1", 4, 0);
-    double hu = now("preset.points.3.hu"), opacity = now("preset.points.4.opacity");
+    double hu = number_now("preset.points.3.hu"), opacity = number_now("preset.points.4.opacity");
     hands("key --delay 60 Up Up shift+Down");
     expect_number("preset.points.4.opacity", opacity + 0.019, 1e-9);
-    double low = now("editor.hu.0"), high = now("editor.hu.1");
+    double low = number_now("editor.hu.0"), high = number_now("editor.hu.1");
     double step = pow(10, floor(log10((high - low) / 100)));
     for (int i = 0; i < 2; i++)
         if (step * (i == 0 ? 5 : 2) <= (high - low) / 100) {
@@ -121,7 +100,7 @@ static void keys_alone_edit(void **state) {
     /* Esc lets go of the points, then of the keys: arrows scroll slices again. */
     hands("key --delay 60 Escape Escape");
     expect_number("editor.point", -1, 0);
-    double slice = now("axial.slice");
+    double slice = number_now("axial.slice");
     hands("key --delay 60 Up");
     expect_number("axial.slice", slice + 1, 0);
     hands("key --delay 60 ctrl+z ctrl+z ctrl+z ctrl+z ctrl+z ctrl+z ctrl+z");
@@ -134,9 +113,9 @@ static void a_range_is_counted_and_marked(void **state) {
     need_window();
     plot plot = read_plot();
     int y = (int)(plot.top + plot.height) + 6;
-    drag_from_to(x_of(&plot, 150), y, x_of(&plot, 500), y);
+    drag_between(x_of(&plot, 150), y, x_of(&plot, 500), y);
     expect_number("editor.in_slices.hu.0", 150, 25);
-    double low = now("editor.in_slices.hu.0"), high = now("editor.in_slices.hu.1");
+    double low = number_now("editor.in_slices.hu.0"), high = number_now("editor.in_slices.hu.1");
     ang_volume *volume = ang_load(FOLDER "/phantom", &(ang_load_options){0}, &(ang_load_report){0}, NULL, NULL);
     assert_non_null(volume);
     size_t counted = 0, all = ang_volume_count(volume);
@@ -161,7 +140,8 @@ static void a_range_is_counted_and_marked(void **state) {
         expect_text("saved", name);
         snprintf(name, sizeof name, PICTURES "/angioscope-window-%04d.png", i + 1);
         assert_true(ang_picture_read(name, &picture, NULL));
-        double left = now("panes.axial.0"), top = now("panes.axial.1") + 50, bottom = now("panes.axial.3") - 50;
+        double left = number_now("panes.axial.0"), top = number_now("panes.axial.1") + 50,
+               bottom = number_now("panes.axial.3") - 50;
         seen[i] = 0;
         for (int p = 0; p < picture.width * picture.height; p++) {
             const float *c = picture.rgba + 4 * p;
@@ -200,7 +180,7 @@ static void a_preset_is_saved_by_name(void **state) {
     hands("key --delay 60 Return");
     expect_text("saved", "my head.json");
     expect_text("preset.name", "my head");
-    double opacity = now("preset.points.1.opacity");
+    double opacity = number_now("preset.points.1.opacity");
     assert_int_equal(run("presets show 'my head'"), 0);
     ang_preset *saved = ang_preset_load(FOLDER "/config/angioscope/presets/my head.json", NULL);
     assert_non_null(saved);
@@ -218,7 +198,7 @@ static void a_preset_is_saved_by_name(void **state) {
     expect_text("saving_preset.name", "my head");
     for (int i = 0; i < 2; i++) {
         hands("key --delay 60 Return");
-        expect_true(i == 0 ? "saving_preset.replaces" : "can_undo");
+        expect_flag(i == 0 ? "saving_preset.replaces" : "can_undo", true);
         expect_text("saving_preset.name", i == 0 ? "my head" : "");
         saved = ang_preset_load(FOLDER "/config/angioscope/presets/my head.json", NULL);
         assert_non_null(saved);
@@ -235,7 +215,7 @@ static void the_error_is_estimated_at_rest(void **state) {
     hands("key --delay 60 1");
     expect_text("preset.name", "cta-head");
     expect_number("preset.points.13.hu", 3071, 0);
-    expect_true("at_rest");
+    expect_flag("at_rest", true);
     cJSON *shown = read_state();
     assert_false(cJSON_IsTrue(field(shown, "preset_changed")));
     double levels = number_at(shown, "error_levels");
@@ -250,8 +230,8 @@ static void the_error_is_estimated_at_rest(void **state) {
     ang_json_close(&json);
     hands("mousedown 1 mousemove_relative 10 0");
     nap(100);
-    for (int i = 0; i < 100 && !isnan(now("error_levels")); i++) nap(20);
-    assert_true(isnan(now("error_levels")));
+    for (int i = 0; i < 100 && !isnan(number_now("error_levels")); i++) nap(20);
+    assert_true(isnan(number_now("error_levels")));
     hands("mouseup 1");
 }
 
@@ -261,5 +241,5 @@ int main(void) {
         cmocka_unit_test(a_range_is_counted_and_marked), cmocka_unit_test(the_error_is_estimated_at_rest),
         cmocka_unit_test(a_preset_is_saved_by_name),
     };
-    return cmocka_run_group_tests(tests, opening, close_display);
+    return cmocka_run_group_tests(tests, open_phantom, close_display);
 }

@@ -13,15 +13,6 @@
 /* 96 x 96 x 48 voxels of 2.4, 2.4 and 2 mm about (0, 5, 8). */
 static const double voxel[3] = {2.4, 2.4, 2};
 
-static int opening(void **state) {
-    (void)state;
-    if (open_display() != 0) return -1;
-    if (skipped) return 0;
-    if (run("phantom -o " FOLDER "/phantom --dims 96x96x48 --quiet") != 0) return -1;
-    start_viewer(FOLDER "/phantom --preset cta-head");
-    return 0;
-}
-
 static ang_volume *load_phantom(void) {
     ang_load_report report = {0};
     ang_volume *volume = ang_load(FOLDER "/phantom", &(ang_load_options){0}, &report, NULL, NULL);
@@ -434,5 +425,5 @@ int main(void) {
         cmocka_unit_test(the_volume_has_the_lengths_as_headless),
         cmocka_unit_test(measures_are_restored_with_the_session),
     };
-    return cmocka_run_group_tests(tests, opening, close_display);
+    return cmocka_run_group_tests(tests, open_phantom, close_display);
 }

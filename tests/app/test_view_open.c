@@ -57,13 +57,6 @@ static void expect_count(const char *path, double expected) {
     fail_msg("%s is %g, not %g", path, value, expected);
 }
 
-static double count_of(const char *path) {
-    cJSON *state = read_state();
-    double value = number_at(state, path);
-    cJSON_Delete(state);
-    return value;
-}
-
 /* Letter by letter, as fast as a hand can be. */
 static void type(const char *text) { hands("type --delay 12 '%s'", text); }
 
@@ -160,11 +153,11 @@ static void what_is_dropped_opens(void **state) {
 static void loading_is_cancelled_or_replaced(void **state) {
     (void)state;
     need_window();
-    double before = count_of("slices_previewed");
+    double before = number_now("slices_previewed");
     drop(FOLDER "/long.raw.gz");
     expect_text("phase", "loading");
-    for (int i = 0; i < 200 && count_of("slices_previewed") <= before; i++) nap(10);
-    assert_true(count_of("slices_previewed") > before);
+    for (int i = 0; i < 200 && number_now("slices_previewed") <= before; i++) nap(10);
+    assert_true(number_now("slices_previewed") > before);
     hands("key Escape");
     expect_text("phase", "ready");
     expect_number("axial.slices", 24, 0);

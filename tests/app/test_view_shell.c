@@ -17,24 +17,6 @@ static int opening(void **state) {
     return 0;
 }
 
-static void expect_flag(const char *path, bool expected) {
-    bool value = !expected;
-    for (int i = 0; i < 200 && value != expected; i++) {
-        cJSON *state = read_state();
-        value = cJSON_IsTrue(field(state, path));
-        cJSON_Delete(state);
-        if (value != expected) nap(50);
-    }
-    if (value != expected) fail_msg("%s is %d", path, value);
-}
-
-static double now(const char *path) {
-    cJSON *state = read_state();
-    double value = number_at(state, path);
-    cJSON_Delete(state);
-    return value;
-}
-
 /* The pointer where no pane is. */
 static void park(void) { hands("mousemove 700 8"); }
 
@@ -79,13 +61,13 @@ static void the_light_theme_leaves_pictures_alone(void **state) {
     assert_int_equal(picture.width, 1100);
     assert_int_equal(picture.height, 650);
     expect_colour(&picture, 3, 400, ang_theme_light.panel);
-    expect_colour(&picture, now("panes.axial.0") - 2, 300, ang_theme_light.gap);
+    expect_colour(&picture, number_now("panes.axial.0") - 2, 300, ang_theme_light.gap);
     static const char *const panes[] = {"axial", "coronal", "sagittal", "volume"};
     for (int i = 0; i < 4; i++) {
         char left[32], top[32];
         snprintf(left, sizeof left, "panes.%s.0", panes[i]);
         snprintf(top, sizeof top, "panes.%s.1", panes[i]);
-        expect_colour(&picture, now(left) + 6, now(top) + 50, ANG_INK(0, 0, 0, 255));
+        expect_colour(&picture, number_now(left) + 6, number_now(top) + 50, ANG_INK(0, 0, 0, 255));
     }
     ang_image_clear(&picture);
 }
@@ -95,7 +77,7 @@ static void hold(const char *grip, int dx, int dy) {
     double rect[4];
     for (int i = 0; i < 4; i++) {
         snprintf(path[i], sizeof path[i], "shell.grips.%s.%d", grip, i);
-        rect[i] = now(path[i]);
+        rect[i] = number_now(path[i]);
     }
     /* Off the cross in the middle, for gaps that pass it. */
     bool upright = rect[3] > rect[2] * 2, level = rect[2] > rect[3] * 2;
@@ -107,7 +89,8 @@ static void hold(const char *grip, int dx, int dy) {
 static void gaps_follow_the_hand(void **state) {
     (void)state;
     need_window();
-    double width = now("panes.axial.2"), height = now("panes.axial.3"), left = now("panes.axial.0");
+    double width = number_now("panes.axial.2"), height = number_now("panes.axial.3"),
+           left = number_now("panes.axial.0");
     hold("cross", -60, 40);
     hands("mouseup 1");
     expect_number("panes.axial.2", width - 60, 0);
@@ -159,7 +142,8 @@ static void keys_alone_do_everything(void **state) {
         nap(300);
     }
     expect_text("shell.focus", "coronal");
-    double slice = now("coronal.slice"), sagittal = now("sagittal.slice"), axial = now("axial.slice");
+    double slice = number_now("coronal.slice"), sagittal = number_now("sagittal.slice"),
+           axial = number_now("axial.slice");
     hands("key Up Up Up");
     expect_number("coronal.slice", slice + 3, 0);
     hands("key 4");
@@ -171,8 +155,8 @@ static void keys_alone_do_everything(void **state) {
     hands("key plus");
     expect_number("coronal.zoom", 1.15, 1e-9);
     hands("key ctrl+Left");
-    for (int i = 0; i < 200 && !(now("coronal.pan_mm.0") > 1); i++) nap(50);
-    assert_true(now("coronal.pan_mm.0") > 1); /* the picture went to the left */
+    for (int i = 0; i < 200 && !(number_now("coronal.pan_mm.0") > 1); i++) nap(50);
+    assert_true(number_now("coronal.pan_mm.0") > 1); /* the picture went to the left */
     hands("key r");
     expect_number("coronal.zoom", 1, 0);
     /* The camera. */
@@ -196,7 +180,7 @@ static void the_panel_takes_keys_from_tab_to_esc(void **state) {
     expect_text("shell.focus", "widgets");
     hands("key Escape");
     expect_text("shell.focus", "volume");
-    double slice = now("axial.slice"), zoom = atof("1.6");
+    double slice = number_now("axial.slice"), zoom = atof("1.6");
     hands("key Tab");
     expect_text("shell.focus", "widgets");
     /* The first is the list of presets: Enter opens it, an arrow and Enter choose. */
@@ -228,7 +212,7 @@ static void what_was_chosen_is_there_again(void **state) {
     (void)state;
     need_window();
     hands("key t"); /* no text on the panes */
-    double down = now("shell.split.1");
+    double down = number_now("shell.split.1");
     hands("key ctrl+q");
     assert_int_equal(wait_for_end(), 0);
     start_viewer(PHANTOM);
@@ -238,7 +222,7 @@ static void what_was_chosen_is_there_again(void **state) {
     expect_number("shell.split.1", down, 1e-12);
     expect_number("shell.panel", 368, 0);
     expect_number("shell.recent", 1, 0);
-    assert_close(now("panes.volume.0") + now("panes.volume.2"), 1100, 0); /* the window's size */
+    assert_close(number_now("panes.volume.0") + number_now("panes.volume.2"), 1100, 0); /* the window's size */
     hands("key ctrl+q");
     assert_int_equal(wait_for_end(), 0);
 }

@@ -444,13 +444,6 @@ static void names_are_left_out_of_saved_windows(void **state) {
     assert_close(brightest_of_name(PICTURES "/angioscope-window-0004.png"), 0, 0.02);
 }
 
-static void it_ends_well(void **state) {
-    (void)state;
-    need_window();
-    hands("key ctrl+q");
-    assert_int_equal(wait_for_end(), 0);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_opens),

@@ -117,6 +117,14 @@ static inline double number_at(cJSON *root, const char *path) {
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
+/* Of what is shown now. */
+static inline double number_now(const char *path) {
+    cJSON *state = read_state();
+    double value = number_at(state, path);
+    cJSON_Delete(state);
+    return value;
+}
+
 static inline const char *text_at(cJSON *root, const char *path) {
     const char *text = cJSON_GetStringValue(field(root, path));
     return text ? text : "";
@@ -150,15 +158,15 @@ static inline void expect_text(const char *path, const char *expected) {
 }
 
 /* The same for what is true or false. */
-static inline void expect_true(const char *path) {
+static inline void expect_flag(const char *path, bool expected) {
     for (int i = 0; i < 200; i++) {
         cJSON *state = read_state();
         bool is = cJSON_IsTrue(field(state, path));
         cJSON_Delete(state);
-        if (is) return;
+        if (is == expected) return;
         nap(50);
     }
-    fail_msg("%s is not true", path);
+    fail_msg("%s is not %s", path, expected ? "true" : "false");
 }
 
 /* Commands for xdotool. */
@@ -200,6 +208,12 @@ static inline void drag(int button, int dx, int dy) {
           dx - dx / 2, dy - dy / 2, button);
 }
 
+/* With the left button from one place of the window to another, as near as whole pixels allow. */
+static inline void drag_between(double x0, double y0, double x1, double y1) {
+    hands("mousemove %ld %ld", lround(x0), lround(y0));
+    drag(1, (int)lround(x1 - x0), (int)lround(y1 - y0));
+}
+
 /* An empty FOLDER, no preferences, and a display; `skipped` where there can be none. For a group's setup: 0 or -1. */
 static inline int open_display(void) {
     if (system("rm -rf " FOLDER " && mkdir -p " FOLDER) != 0) return -1;
@@ -209,8 +223,17 @@ static inline int open_display(void) {
 #ifndef ANG_WITH_WINDOW
     skipped = "this build has no window";
 #endif
-    setenv("XDG_CONFIG_HOME", FOLDER "/config", 1); /* not what its user has */
     return skipped || start_server() ? 0 : -1;
+}
+
+/* For a group's setup: the window with a phantom of 96 x 96 x 48 voxels, FOLDER/phantom. */
+static inline int open_phantom(void **state) {
+    (void)state;
+    if (open_display() != 0) return -1;
+    if (skipped) return 0;
+    if (run("phantom -o " FOLDER "/phantom --dims 96x96x48 --quiet") != 0) return -1;
+    start_viewer(FOLDER "/phantom --preset cta-head");
+    return 0;
 }
 
 /* For a group's teardown: ends the viewer, where it still runs, and the display. */
@@ -293,6 +316,14 @@ static inline int wait_for_end(void) {
     }
     fail_msg("the viewer does not end");
     return -1;
+}
+
+/* A group's last test. */
+static inline void it_ends_well(void **state) {
+    (void)state;
+    need_window();
+    hands("key ctrl+q");
+    assert_int_equal(wait_for_end(), 0);
 }
 
 #endif

@@ -1,7 +1,6 @@
 /* Measuring: lengths, angles and regions against closed forms. */
 #include "tests/core/fixtures.h"
-
-#include "core/volume/measures.h"
+#include "tests/core/regions.h"
 
 #include <string.h>
 
@@ -12,14 +11,6 @@ static double constant(int x, int y, int z) {
 }
 /* 10 HU a voxel along x, 3 along y, -7 along z. */
 static double ramp(int x, int y, int z) { return 10 * x + 3 * y - 7 * z; }
-
-static ang_measurement region(ang_measure_kind kind, ang_vec3 from, ang_vec3 to, ang_vec3 right, ang_vec3 down) {
-    return (ang_measurement){.kind = kind, .point = {from, to}, .right = right, .down = down};
-}
-
-static ang_measurement axial_region(ang_measure_kind kind, double x0, double y0, double x1, double y1, double z) {
-    return region(kind, (ang_vec3){x0, y0, z}, (ang_vec3){x1, y1, z}, (ang_vec3){1, 0, 0}, (ang_vec3){0, 1, 0});
-}
 
 static void lengths_and_angles_are_euclids(void **state) {
     (void)state;

@@ -1,19 +1,7 @@
 /* The clip plane under the hand, against closed forms. */
-#include "tests/core/fixtures.h"
+#include "tests/ui/volumes.h"
 
 #include "ui/state/clip_geometry.h"
-
-static double zero(int x, int y, int z) {
-    (void)x, (void)y, (void)z;
-    return 0;
-}
-
-/* 40 mm to each side about the origin. */
-static ang_volume *cube(void) {
-    ang_volume *volume = make_volume(41, 21, 9, (double[]){1, 2, 5}, zero);
-    for (int i = 0; i < 3; i++) volume->affine.m[i][3] = -20;
-    return volume;
-}
 
 static void assert_vector(ang_vec3 a, double x, double y, double z) {
     assert_close(a.x, x, 1e-9);

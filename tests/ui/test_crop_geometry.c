@@ -1,19 +1,7 @@
 /* The crop box under the hand, against closed forms. */
-#include "tests/core/fixtures.h"
+#include "tests/ui/volumes.h"
 
 #include "ui/state/crop_geometry.h"
-
-static double zero(int x, int y, int z) {
-    (void)x, (void)y, (void)z;
-    return 0;
-}
-
-/* 40 x 40 x 40 mm in 40 x 20 x 8 steps, with its first voxel at (-20, -20, -20). */
-static ang_volume *cube(void) {
-    ang_volume *volume = make_volume(41, 21, 9, (double[]){1, 2, 5}, zero);
-    for (int i = 0; i < 3; i++) volume->affine.m[i][3] = -20;
-    return volume;
-}
 
 static ang_crop_box whole(const ang_volume *volume) {
     ang_crop_box box;

@@ -1,16 +1,9 @@
 /* Measures in a document, and where their marks and labels lie in a pane. */
 #include "tests/core/fixtures.h"
+#include "tests/core/regions.h"
 
 #include "ui/state/document.h"
 #include "ui/state/measure_marks.h"
-
-static ang_measurement region(ang_measure_kind kind, ang_vec3 from, ang_vec3 to, ang_vec3 right, ang_vec3 down) {
-    return (ang_measurement){.kind = kind, .point = {from, to}, .right = right, .down = down};
-}
-
-static ang_measurement axial_region(ang_measure_kind kind, double x0, double y0, double x1, double y1, double z) {
-    return region(kind, (ang_vec3){x0, y0, z}, (ang_vec3){x1, y1, z}, (ang_vec3){1, 0, 0}, (ang_vec3){0, 1, 0});
-}
 
 /* Undo knows every change; the volume rendering only those of lengths that are shown. */
 static void undo_and_the_volume_see_what_concerns_them(void **state) {

@@ -1,12 +1,7 @@
 /* Where panes show places, and what a drag on them means, against rays and closed forms. */
-#include "tests/core/fixtures.h"
+#include "tests/ui/volumes.h"
 
 #include "ui/state/pane_map.h"
-
-static double zero(int x, int y, int z) {
-    (void)x, (void)y, (void)z;
-    return 0;
-}
 
 /* 40 x 60 x 50 mm, askew in the patient. */
 static ang_volume *body(void) {

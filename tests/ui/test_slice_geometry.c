@@ -1,15 +1,10 @@
 /* Left is left: where pixels of the slice panes lie in the patient. */
-#include "tests/core/fixtures.h"
+#include "tests/ui/volumes.h"
 
 #include "core/scene/annotation.h"
 #include "ui/state/slice_geometry.h"
 
 #include <string.h>
-
-static double zero(int x, int y, int z) {
-    (void)x, (void)y, (void)z;
-    return 0;
-}
 
 static ang_volume *body(void) {
     ang_volume *volume = make_volume(41, 61, 21, (double[]){2, 1, 5}, zero);

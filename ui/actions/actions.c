@@ -4,7 +4,6 @@
 
 #include "ui/host/state_files.h"
 #include "ui/panels/measures.h"
-#include "ui/panels/presets.h"
 #include "ui/panels/transfer_keys.h"
 #include "ui/panes/planes.h"
 #include "ui/panes/playing.h"

@@ -5,7 +5,6 @@
 #include "ui/dialogs/load_report.h"
 #include "ui/panels/transfer_keys.h"
 #include "ui/panes/playing.h"
-#include "ui/study.h"
 #include "ui/viewer_private.h"
 
 static bool end(bool *flag) {

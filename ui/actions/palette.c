@@ -3,7 +3,6 @@
 #include "ui/actions/actions.h"
 #include "ui/actions/window_presets.h"
 #include "ui/state/search.h"
-#include "ui/study.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
@@ -67,7 +66,7 @@ static void add_windows(const ang_viewer *viewer, list *list) {
 }
 
 static void add_presets(const ang_viewer *viewer, list *list) {
-    const ang_preset *presets[ANG_THUMBNAILS];
+    const ang_preset *presets[ANG_PRESETS];
     int count = viewer->ready ? ang_presets(viewer, presets) : 0;
     for (int i = 0; i < count; i++) {
         entry entry = {.preset = presets[i], .enabled = true};
@@ -169,24 +168,35 @@ static void show_query(ang_viewer *viewer, double width) {
     ang_gui_unclip(gui);
 }
 
+/* True where it was clicked. */
+static bool draw_row(ang_viewer *viewer, const entry *entry, int row) {
+    ang_gui *gui = viewer->gui;
+    const ang_theme *theme = viewer->theme;
+    ang_canvas canvas;
+    char right[48];
+    snprintf(right, sizeof right, "%s%s", entry->on ? "on   " : "", entry->shortcut);
+    ang_rect rect = ang_gui_rows_row(gui, row, row == viewer->palette.chosen, entry->enabled, &canvas);
+    double inset = ang_gui_px(gui, 8), y = rect.y + (rect.height - ang_gui_text_height(gui, false)) / 2;
+    ang_gui_write(gui, rect.x + inset, y, 0, false, false, entry->enabled ? theme->text : theme->dim, entry->name);
+    ang_gui_write(gui, rect.x + rect.width - inset, y, 1, false, false, theme->dim, right);
+    return canvas.clicked && entry->enabled;
+}
+
 static void show(ang_viewer *viewer, list *list) {
     ang_gui *gui = viewer->gui;
     ang_palette *palette = &viewer->palette;
-    double width = ang_gui_px(gui, 560);
+    double width = ang_gui_px(gui, 560), row_height = ang_gui_px(gui, 24);
     int pressed = -1;
+    ang_rows_part part;
     ang_gui_message_begin(gui, "palette");
     show_query(viewer, width);
     ang_gui_gap(gui, ang_gui_px(gui, 4));
-    ang_gui_list_begin(gui, "found", width, ROWS);
-    for (int i = 0; i < list->count; i++) {
-        const entry *entry = &list->entries[i];
-        char right[48];
-        snprintf(right, sizeof right, "%s%s", entry->on ? "on   " : "", entry->shortcut);
-        if (ang_gui_row(gui, entry->name, right, i == palette->chosen, entry->enabled)) pressed = i;
-        if (i == palette->chosen && palette->moved) ang_gui_list_show(gui);
-    }
+    ang_gui_rows_begin(gui, "found", width, ROWS * row_height, row_height, (size_t)list->count,
+                       palette->moved ? palette->chosen : -1, &part);
+    for (int row = part.first; row < part.end; row++)
+        if (draw_row(viewer, &list->entries[row], row)) pressed = row;
     if (list->count == 0) ang_gui_text_dim(gui, "Nothing has such a name.");
-    ang_gui_list_end(gui);
+    ang_gui_rows_end(gui);
     ang_gui_gap(gui, ang_gui_px(gui, 2));
     ang_gui_text_dim(gui, "Arrows choose, Enter does it, Esc closes this.");
     ang_gui_message_end(gui);

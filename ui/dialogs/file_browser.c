@@ -230,11 +230,7 @@ static void draw_row(ang_viewer *viewer, int row) {
     ang_file_browser *files = &viewer->files;
     const ang_file_entry *entry = &files->list.entry[files->shown[row]];
     ang_canvas canvas;
-    ang_rect rect = ang_gui_rows_row(gui, row, &canvas);
-    if (row == files->chosen)
-        ang_gui_fill(gui, rect, theme->chosen);
-    else if (canvas.hovered)
-        ang_gui_fill(gui, rect, theme->control_hovered);
+    ang_rect rect = ang_gui_rows_row(gui, row, row == files->chosen, true, &canvas);
     double y = rect.y + (rect.height - ang_gui_text_height(gui, false)) / 2, edge = ang_gui_px(gui, 8);
     double right = rect.x + rect.width - edge, size_width = ang_gui_px(gui, 72);
     char text[32] = "";

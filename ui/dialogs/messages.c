@@ -5,7 +5,6 @@
 #include "ui/dialogs/load_report.h"
 #include "ui/viewer_private.h"
 
-#include <math.h>
 #include <stdio.h>
 
 enum { SLICE = 320 }; /* side of the slice that is shown while loading, at scale 1 */
@@ -20,12 +19,7 @@ static void show_slice(ang_viewer *viewer) {
     ang_rect square = canvas.rect;
     ang_gui_fill(gui, square, ANG_INK(0, 0, 0, 255));
     if (preview->count == 0 || preview->texture.width < 1) return;
-    double longer = fmax(preview->texture.width, preview->texture.height);
-    double across = round(side * preview->texture.width / longer),
-           down = round(side * preview->texture.height / longer);
-    ang_gui_picture(
-        gui, &preview->texture,
-        (ang_rect){square.x + floor((side - across) / 2), square.y + floor((side - down) / 2), across, down});
+    ang_gui_picture(gui, &preview->texture, ang_rect_within(square, preview->texture.width, preview->texture.height));
     char text[64];
     snprintf(text, sizeof text, "%zu / %zu", preview->index + 1, preview->count);
     ang_gui_write(gui, square.x + ang_gui_px(gui, 6), square.y + ang_gui_px(gui, 4), 0, true, true, ANG_INK_TEXT, text);

@@ -11,7 +11,7 @@ enum { frames_to_focus = 4 };
 
 void ang_preset_dialog_open(ang_viewer *viewer, bool deletes) {
     ang_preset_dialog *dialog = &viewer->preset_dialog;
-    const ang_preset *presets[ANG_THUMBNAILS];
+    const ang_preset *presets[ANG_PRESETS];
     int count = ang_presets(viewer, presets), chosen = ang_preset_chosen(viewer, presets, count);
     *dialog = (ang_preset_dialog){.open = true, .deletes = deletes};
     viewer->redraws = frames_to_focus;

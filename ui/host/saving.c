@@ -6,17 +6,21 @@
 
 #include <stdlib.h>
 
+void ang_say_saved(ang_viewer *viewer, bool done, const ang_error *err) {
+    if (!done) viewer->saved[0] = '\0';
+    if (done)
+        ang_viewer_say(viewer, false, "Saved %s", viewer->saved);
+    else
+        ang_viewer_say(viewer, true, "%s", err->message);
+}
+
 /* With the state of the 3D pane's picture in it, where it is that. */
 static void save(ang_viewer *viewer, const char *what, const ang_image *image, bool with_state, ang_error *err) {
     ang_viewer_state state;
     if (with_state) ang_viewer_describe(viewer, &state);
-    if (!viewer->host->save_picture(viewer->host->context, what, image, with_state ? &state : NULL, viewer->saved,
-                                    sizeof viewer->saved, err)) {
-        viewer->saved[0] = '\0';
-        ang_viewer_say(viewer, true, "%s", err->message);
-    } else {
-        ang_viewer_say(viewer, false, "Saved %s", viewer->saved);
-    }
+    bool done = viewer->host->save_picture(viewer->host->context, what, image, with_state ? &state : NULL,
+                                           viewer->saved, sizeof viewer->saved, err);
+    ang_say_saved(viewer, done, err);
 }
 
 static void ask(ang_viewer *viewer, int pane) {

@@ -2,6 +2,8 @@
 #ifndef ANG_UI_SAVING_H
 #define ANG_UI_SAVING_H
 
+#include "core/base/error.h"
+
 #include <stdbool.h>
 
 typedef struct ang_viewer ang_viewer;
@@ -13,6 +15,9 @@ typedef struct ang_shot {
     int frame;  /* that was drawn when it was asked for: the menu may still be in it */
     bool posed; /* it is taken of this frame, which names neither folders nor people */
 } ang_shot;
+
+/* Says that `saved` has been written, or why not. */
+void ang_say_saved(ang_viewer *viewer, bool done, const ang_error *err);
 
 void ang_shot_pose(ang_viewer *viewer); /* before a frame is drawn */
 void ang_shot_take(ang_viewer *viewer); /* after it has been painted */

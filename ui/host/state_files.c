@@ -70,10 +70,6 @@ void ang_session_save(ang_viewer *viewer) {
     ang_viewer_state state;
     const ang_viewer_host *host = viewer->host;
     ang_viewer_describe(viewer, &state);
-    if (!host->save_state(host->context, &state, viewer->saved, sizeof viewer->saved, &err)) {
-        viewer->saved[0] = '\0';
-        ang_viewer_say(viewer, true, "%s", err.message);
-    } else {
-        ang_viewer_say(viewer, false, "Saved %s", viewer->saved);
-    }
+    bool done = host->save_state(host->context, &state, viewer->saved, sizeof viewer->saved, &err);
+    ang_say_saved(viewer, done, &err);
 }

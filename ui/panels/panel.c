@@ -3,7 +3,7 @@
 
 #include "ui/panels/cutting_panel.h"
 #include "ui/panels/measures.h"
-#include "ui/panels/presets.h"
+#include "ui/panels/presets_panel.h"
 #include "ui/panels/transfer_editor.h"
 #include "ui/panes/identity.h"
 #include "ui/viewer_private.h"

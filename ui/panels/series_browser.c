@@ -173,10 +173,7 @@ static void draw_picture(ang_viewer *viewer, int row, double x, double y, double
     ang_rect square = {x, y, side, side};
     ang_gui_fill(gui, square, ANG_INK(0, 0, 0, 255));
     if (viewer->series.picture && entry->width > 0) {
-        double longer = entry->width > entry->height ? entry->width : entry->height;
-        double width = round(side * entry->width / longer), height = round(side * entry->height / longer);
-        ang_gui_picture(gui, &viewer->series.picture[row],
-                        (ang_rect){x + floor((side - width) / 2), y + floor((side - height) / 2), width, height});
+        ang_gui_picture(gui, &viewer->series.picture[row], ang_rect_within(square, entry->width, entry->height));
     } else if (entry->looked_at) {
         ang_gui_write(gui, x + side / 2, y + (side - ang_gui_text_height(gui, true)) / 2, 0.5, true, false, ANG_INK_DIM,
                       "no picture");
@@ -209,12 +206,8 @@ static void draw_row(ang_viewer *viewer, int row) {
     ang_series_browser *series = &viewer->series;
     const ang_series_entry *entry = &series->list.entry[row];
     ang_canvas canvas;
-    ang_rect rect = ang_gui_rows_row(gui, row, &canvas);
+    ang_rect rect = ang_gui_rows_row(gui, row, row == series->chosen, true, &canvas);
     double margin = ang_gui_px(gui, MARGIN), side = ang_gui_px(gui, PICTURE);
-    if (row == series->chosen)
-        ang_gui_fill(gui, rect, theme->chosen);
-    else if (canvas.hovered)
-        ang_gui_fill(gui, rect, theme->control_hovered);
     draw_picture(viewer, row, rect.x + margin, rect.y + margin, side);
     double x = rect.x + side + 2 * margin + ang_gui_px(gui, 2), y = rect.y + margin;
     double line = (side - ang_gui_text_height(gui, true)) / 3;

@@ -11,24 +11,10 @@
 /* At scale 1. */
 enum { WIDTH = 128, HEIGHT = 96, COLUMNS = 5, SMALL_WIDTH = 92, SMALL_HEIGHT = 69, LINE = 18, BAR = 4 };
 
-int ang_presets(const ang_viewer *viewer, const ang_preset *presets[ANG_THUMBNAILS]) {
-    int count = 0;
-    if (viewer->own_preset) presets[count++] = viewer->own_preset;
-    for (int i = 0; viewer->host->presets[i] && count < ANG_THUMBNAILS; i++)
-        presets[count++] = viewer->host->presets[i];
-    return count;
-}
-
-int ang_preset_chosen(const ang_viewer *viewer, const ang_preset *const *presets, int count) {
-    for (int i = 0; i < count; i++)
-        if (strcmp(presets[i]->name, viewer->document.preset) == 0) return i;
-    return -1;
-}
-
 /* The first one that is seen and has no picture yet; -1: none. */
 static int next_wanted(const ang_viewer *viewer) {
     const ang_thumbnails *thumbnails = &viewer->thumbnails;
-    const ang_preset *presets[ANG_THUMBNAILS];
+    const ang_preset *presets[ANG_PRESETS];
     int count = ang_presets(viewer, presets);
     for (int i = 0; i < count; i++) {
         bool seen = viewer->browsing || (i >= thumbnails->first && i <= thumbnails->last);
@@ -44,7 +30,7 @@ bool ang_thumbnails_wanted(const ang_viewer *viewer) {
 
 void ang_thumbnails_step(ang_viewer *viewer) {
     ang_thumbnails *thumbnails = &viewer->thumbnails;
-    const ang_preset *presets[ANG_THUMBNAILS];
+    const ang_preset *presets[ANG_PRESETS];
     ang_presets(viewer, presets);
     int next = next_wanted(viewer);
     if (next < 0) return;
@@ -61,12 +47,12 @@ void ang_thumbnails_step(ang_viewer *viewer) {
 }
 
 void ang_thumbnails_renew(ang_viewer *viewer) {
-    for (int i = 0; i < ANG_THUMBNAILS; i++) viewer->thumbnails.made[i] = false;
+    for (int i = 0; i < ANG_PRESETS; i++) viewer->thumbnails.made[i] = false;
 }
 
 void ang_thumbnails_clear(ang_viewer *viewer) {
     ang_thumbnails *thumbnails = &viewer->thumbnails;
-    for (int i = 0; i < ANG_THUMBNAILS; i++) ang_painter_forget(viewer->painter, &thumbnails->texture[i]);
+    for (int i = 0; i < ANG_PRESETS; i++) ang_painter_forget(viewer->painter, &thumbnails->texture[i]);
     ang_thumbnails_renew(viewer);
 }
 
@@ -104,7 +90,7 @@ static void tell(ang_gui *gui, const ang_preset *preset) {
 
 void ang_thumbnails_show(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
-    const ang_preset *presets[ANG_THUMBNAILS];
+    const ang_preset *presets[ANG_PRESETS];
     int count = ang_presets(viewer, presets), taken = -1;
     double width = ang_gui_px(gui, WIDTH), height = ang_gui_px(gui, HEIGHT);
     ang_gui_message_begin(gui, "presets");
@@ -141,7 +127,7 @@ static void scroll(ang_viewer *viewer, const ang_canvas *canvas, int chosen, dou
 void ang_thumbnails_strip(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     ang_thumbnails *thumbnails = &viewer->thumbnails;
-    const ang_preset *presets[ANG_THUMBNAILS];
+    const ang_preset *presets[ANG_PRESETS];
     int count = ang_presets(viewer, presets), pointed = -1;
     double width = ang_gui_px(gui, SMALL_WIDTH), height = ang_gui_px(gui, SMALL_HEIGHT);
     double pitch = width + ang_gui_px(gui, 8), room = ang_gui_room(gui), all = count * pitch - ang_gui_px(gui, 8);

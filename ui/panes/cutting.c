@@ -34,19 +34,15 @@ static bool on_ring(const ang_viewer *viewer, const ang_pane_map *map, double x,
     return fabs(ang_vec3_length(from) - ang_cutting_ring(viewer, map)) * scale * fmax(fabs(steep), 0.2) <= radius;
 }
 
-static bool near(const ang_pane_map *map, ang_vec3 mm, double x, double y, double radius) {
-    double at_x, at_y;
-    return ang_pane_map_point(map, mm, &at_x, &at_y) && hypot(at_x - x, at_y - y) <= radius;
-}
-
 static ang_cutting_grip grip_in_volume(const ang_viewer *viewer, const ang_pane_map *map, double x, double y) {
     bool clips = ang_clip_plane_given(&viewer->document.clip);
     double radius = ang_gui_px(viewer->gui, reach);
     ang_crop_box box = ang_crop_box_of(&viewer->document);
-    if (clips && near(map, ang_cutting_tip(viewer, map), x, y, radius)) return (ang_cutting_grip){ANG_CUTTING_TIP, 0};
+    if (clips && ang_pane_map_distance(map, ang_cutting_tip(viewer, map), x, y) <= radius)
+        return (ang_cutting_grip){ANG_CUTTING_TIP, 0};
     unsigned faces = ang_crop_pick(&box, viewer->study.volume, map, x, y, radius);
     if (faces) return (ang_cutting_grip){ANG_CUTTING_FACES, faces};
-    bool taken = clips && (near(map, ang_cutting_foot(viewer), x, y, radius) ||
+    bool taken = clips && (ang_pane_map_distance(map, ang_cutting_foot(viewer), x, y) <= radius ||
                            on_ring(viewer, map, x, y, ang_gui_px(viewer->gui, side_reach)));
     return (ang_cutting_grip){taken ? ANG_CUTTING_PLANE : ANG_CUTTING_NONE, 0};
 }

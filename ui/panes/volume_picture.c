@@ -4,7 +4,6 @@
 #include "core/base/clock.h"
 #include "core/base/memory.h"
 #include "core/scene/annotation.h"
-#include "ui/panels/presets.h"
 #include "ui/panes/interruption.h"
 #include "ui/viewer_private.h"
 

@@ -129,17 +129,11 @@ int ang_crop_outline(const ang_crop_box *box, const ang_volume *volume, ang_vec3
     return count;
 }
 
-/* Of a place from a place of the pane, pixels; infinite where it does not show. */
-static double distance_of(const ang_pane_map *map, ang_vec3 mm, double x, double y) {
-    double at_x, at_y;
-    return ang_pane_map_point(map, mm, &at_x, &at_y) ? hypot(at_x - x, at_y - y) : INFINITY;
-}
-
 static unsigned pick_corner(const ang_crop_box *box, const ang_volume *volume, const ang_pane_map *map, double x,
                             double y, double radius) {
     unsigned faces = 0;
     for (int i = 0; i < ANG_CROP_CORNERS; i++) {
-        double distance = distance_of(map, ang_crop_corner(box, volume, i), x, y);
+        double distance = ang_pane_map_distance(map, ang_crop_corner(box, volume, i), x, y);
         if (distance > radius || !ang_crop_corner_seen(box, volume, i, map)) continue;
         radius = distance;
         faces = ang_crop_corner_faces(i);
@@ -152,7 +146,7 @@ unsigned ang_crop_pick(const ang_crop_box *box, const ang_volume *volume, const 
     int best = -1;
     double nearest = radius;
     for (int face = 0; face < ANG_CROP_FACES; face++) {
-        double distance = distance_of(map, ang_crop_face_middle(box, volume, face), x, y);
+        double distance = ang_pane_map_distance(map, ang_crop_face_middle(box, volume, face), x, y);
         /* One that is seen lies over one that is not. */
         if (!ang_crop_face_seen(box, volume, face, map)) distance += 0.5 * radius;
         if (distance > nearest) continue;

@@ -1,5 +1,7 @@
 #include "ui/state/measure_marks.h"
 
+#include "ui/state/pane_map.h"
+
 /* Shares of a slice: what counts as in the plane, and how far beside it a mark still shows. */
 static const double exact_share = 0.01, near_share = 0.5 + 1e-6;
 
@@ -56,13 +58,6 @@ int ang_mark_outline(const ang_measurement *measurement, const ang_slice_frame *
     return count + closed;
 }
 
-static double distance_to_line(const double a[2], const double b[2], double x, double y) {
-    double dx = b[0] - a[0], dy = b[1] - a[1], squared = dx * dx + dy * dy;
-    double t = squared > 0 ? ((x - a[0]) * dx + (y - a[1]) * dy) / squared : 0;
-    t = fmin(fmax(t, 0), 1);
-    return hypot(a[0] + t * dx - x, a[1] + t * dy - y);
-}
-
 int ang_mark_hit(const ang_measurement *measurement, const ang_slice_frame *frame, double x, double y, double reach) {
     ang_vec3 handle[ANG_MEASURE_HANDLES];
     double nearest = reach, at[ANG_MARK_POINTS][2];
@@ -77,7 +72,8 @@ int ang_mark_hit(const ang_measurement *measurement, const ang_slice_frame *fram
     if (found != ANG_MARK_NOTHING) return found;
     count = ang_mark_outline(measurement, frame, at);
     for (int i = 0; i + 1 < count; i++)
-        if (distance_to_line(at[i], at[i + 1], x, y) <= reach) return ANG_MARK_LINE;
+        if (ang_line_distance((double[]){at[i][0], at[i][1], at[i + 1][0], at[i + 1][1]}, x, y) <= reach)
+            return ANG_MARK_LINE;
     return ANG_MARK_NOTHING;
 }
 

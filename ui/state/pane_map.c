@@ -40,6 +40,11 @@ bool ang_pane_map_point(const ang_pane_map *map, ang_vec3 mm, double *x, double 
     return true;
 }
 
+double ang_pane_map_distance(const ang_pane_map *map, ang_vec3 mm, double x, double y) {
+    double at_x, at_y;
+    return ang_pane_map_point(map, mm, &at_x, &at_y) ? hypot(at_x - x, at_y - y) : INFINITY;
+}
+
 bool ang_pane_map_line(const ang_pane_map *map, ang_vec3 from, ang_vec3 to, double ends[4]) {
     double near[2] = {depth_of(map, from) - map->near_mm, depth_of(map, to) - map->near_mm};
     ang_vec3 place[2] = {from, to};

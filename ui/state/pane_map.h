@@ -21,6 +21,8 @@ ang_pane_map ang_pane_map_of_slice(const ang_slice_frame *frame);
 
 /* False where the place is beside or behind the eye. */
 bool ang_pane_map_point(const ang_pane_map *map, ang_vec3 mm, double *x, double *y);
+/* Pixels from where a place appears to (x, y); infinite where it does not show. */
+double ang_pane_map_distance(const ang_pane_map *map, ang_vec3 mm, double x, double y);
 /* The part of a line that shows, as x, y of both ends; false where there is none. It may leave the pane. */
 bool ang_pane_map_line(const ang_pane_map *map, ang_vec3 from, ang_vec3 to, double ends[4]);
 /* Cuts a line of pixels down to what is within 0..width and 0..height; false where nothing is. */

@@ -106,14 +106,6 @@ void ang_gui_progress(ang_gui *gui, double fraction, double width);
 void ang_gui_tooltip(ang_gui *gui, const char *text);
 double ang_gui_room(const ang_gui *gui); /* pixels left to the right of where the next widget goes */
 
-/* A list of rows that scrolls, `rows` of them in view; Tab passes over it. To be ended in any case. */
-void ang_gui_list_begin(ang_gui *gui, const char *name, double width, int rows);
-void ang_gui_list_end(ang_gui *gui);
-/* With dim words at its right end; true where it was clicked. */
-bool ang_gui_row(ang_gui *gui, const char *label, const char *right, bool chosen, bool enabled);
-/* Brings the row before into view. */
-void ang_gui_list_show(ang_gui *gui);
-
 /* A list in columns. */
 bool ang_gui_table_begin(ang_gui *gui, const char *name, int columns);
 void ang_gui_table_next(ang_gui *gui); /* to the next cell */
@@ -146,11 +138,10 @@ typedef struct ang_rows_part {
 } ang_rows_part;
 void ang_gui_rows_begin(ang_gui *gui, const char *name, double width, double height, double row, size_t count,
                         int follow, ang_rows_part *part);
-/* What the hands do on row `index`; its place in the window. */
-ang_rect ang_gui_rows_row(ang_gui *gui, int index, ang_canvas *canvas);
+/* Begins row `index`, on its ground: whether it is the chosen one, and can be taken. What the hands do on it; its place
+ * in the window. */
+ang_rect ang_gui_rows_row(ang_gui *gui, int index, bool chosen, bool enabled, ang_canvas *canvas);
 void ang_gui_rows_end(ang_gui *gui);
-/* A canvas of the left button that leaves the wheel to what it lies in. */
-void ang_gui_row_canvas(ang_gui *gui, const char *name, double width, double height, ang_canvas *canvas);
 /* A text field that has the keyboard whenever nothing else has; Tab, Enter, Up and Down are left to the program.
  * `anew`: `text` has been changed by the program. True where it was typed in. */
 bool ang_gui_path_field(ang_gui *gui, const char *name, char *text, size_t size, double width, bool anew);

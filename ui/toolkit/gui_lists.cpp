@@ -26,11 +26,15 @@ void ang_gui_rows_begin(ang_gui *gui, const char *name, double width, double hei
     gui->row_count = count;
 }
 
-ang_rect ang_gui_rows_row(ang_gui *gui, int index, ang_canvas *canvas) {
+ang_rect ang_gui_rows_row(ang_gui *gui, int index, bool chosen, bool enabled, ang_canvas *canvas) {
     ImGui::SetCursorPosY((float)(index * gui->row));
     ImGui::PushID(index);
     ang_gui_row_canvas(gui, "row", (double)ImGui::GetContentRegionAvail().x, gui->row, canvas);
     ImGui::PopID();
+    if (chosen)
+        ang_gui_fill(gui, canvas->rect, gui->theme->chosen);
+    else if (canvas->hovered && enabled)
+        ang_gui_fill(gui, canvas->rect, gui->theme->control_hovered);
     return canvas->rect;
 }
 

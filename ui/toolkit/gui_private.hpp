@@ -58,6 +58,8 @@ struct ang_gui {
     std::vector<ang_paint_command> commands;
 };
 
+/* A canvas of the left button that leaves the wheel to what it lies in. */
+void ang_gui_row_canvas(ang_gui *gui, const char *name, double width, double height, ang_canvas *canvas);
 /* Sizes at the scale of `gui`, and colours of its theme. */
 void ang_gui_set_style(const ang_gui *gui);
 /* Where the next area goes, and what makes it one that stays there. */

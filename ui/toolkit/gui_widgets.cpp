@@ -228,30 +228,3 @@ bool ang_gui_table_begin(ang_gui *, const char *name, int columns) {
 }
 void ang_gui_table_next(ang_gui *) { ImGui::TableNextColumn(); }
 void ang_gui_table_end(ang_gui *) { ImGui::EndTable(); }
-
-void ang_gui_list_begin(ang_gui *, const char *name, double width, int rows) {
-    float tall = (float)rows * ImGui::GetFrameHeight();
-    ImGui::BeginChild(name, ImVec2((float)width, tall), false, ImGuiWindowFlags_NoNav);
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
-}
-void ang_gui_list_end(ang_gui *) {
-    ImGui::PopStyleVar();
-    ImGui::EndChild();
-}
-bool ang_gui_row(ang_gui *, const char *label, const char *right, bool chosen, bool enabled) {
-    float tall = ImGui::GetFrameHeight(), inset = ImGui::GetStyle().FramePadding.x;
-    ImVec2 at = ImGui::GetCursorScreenPos(), room(ImGui::GetContentRegionAvail().x, tall);
-    ImGui::PushID(label);
-    ImGui::BeginDisabled(!enabled);
-    bool pressed = ImGui::Selectable("##row", chosen, 0, room);
-    float y = at.y + (tall - ImGui::GetFontSize()) / 2;
-    ImDrawList *sheet = ImGui::GetWindowDrawList();
-    sheet->AddText(ImVec2(at.x + inset, y), ImGui::GetColorU32(ImGuiCol_Text), label,
-                   ImGui::FindRenderedTextEnd(label));
-    sheet->AddText(ImVec2(at.x + room.x - inset - ImGui::CalcTextSize(right).x, y),
-                   ImGui::GetColorU32(ImGuiCol_TextDisabled), right);
-    ImGui::EndDisabled();
-    ImGui::PopID();
-    return pressed;
-}
-void ang_gui_list_show(ang_gui *) { ImGui::ScrollToItem(ImGuiScrollFlags_KeepVisibleEdgeY); }

@@ -1,7 +1,6 @@
 /* The panel's part with the presets: which one, its pictures, compared with what is saved, saved, deleted. */
-#include "ui/panels/presets.h"
+#include "ui/panels/presets_panel.h"
 
-#include "ui/study.h"
 #include "ui/viewer_private.h"
 
 #include <stdio.h>
@@ -14,22 +13,9 @@ static void keep_saved(ang_viewer *viewer, const ang_preset *const *presets, int
     ang_document_take_preset(&viewer->chosen, presets[chosen]);
 }
 
-const ang_document *ang_viewer_shown_document(ang_viewer *viewer) {
-    if (!viewer->comparing) return &viewer->document;
-    viewer->compared = viewer->document;
-    ang_document_take_look(&viewer->compared, &viewer->chosen);
-    return &viewer->compared;
-}
-
-void ang_viewer_step_preset(ang_viewer *viewer, int by) {
-    const ang_preset *presets[ANG_THUMBNAILS];
-    int count = ang_presets(viewer, presets), now = ang_preset_chosen(viewer, presets, count);
-    if (count > 0) ang_viewer_choose_preset(viewer, presets[now < 0 ? 0 : (now + by + count) % count]);
-}
-
 static void choose(ang_viewer *viewer, const ang_preset *const *presets, int count, int chosen) {
     ang_gui *gui = viewer->gui;
-    const char *names[ANG_THUMBNAILS];
+    const char *names[ANG_PRESETS];
     char changed[96];
     for (int i = 0; i < count; i++) names[i] = presets[i]->name;
     if (chosen >= 0 && viewer->document.edited) {
@@ -48,7 +34,7 @@ static void choose(ang_viewer *viewer, const ang_preset *const *presets, int cou
 
 void ang_presets_panel(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
-    const ang_preset *presets[ANG_THUMBNAILS];
+    const ang_preset *presets[ANG_PRESETS];
     int count = ang_presets(viewer, presets), chosen = ang_preset_chosen(viewer, presets, count);
     keep_saved(viewer, presets, chosen);
     ang_gui_heading(gui, "PRESET");
