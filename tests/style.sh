@@ -15,6 +15,8 @@ found=$(grep -rnE '#include "(ui|app)/' io || true)
 [ -z "$found" ] || complain "io includes what it must not" "$found"
 found=$(grep -rnE '#include "(io|app)/' ui || true)
 [ -z "$found" ] || complain "ui includes what it must not" "$found"
+found=$(grep -rnE '#include "ui/(actions|dialogs|host|panels|panes|[a-z_]+\.h)' ui/state ui/toolkit || true)
+[ -z "$found" ] || complain "ui/state and ui/toolkit know nothing of the viewer" "$found"
 found=$(grep -rlE 'glad/gl\.h|\bgl[A-Z][A-Za-z]+\(' core io ui app --include=*.c --include=*.h | grep -v '^core/render/' || true)
 [ -z "$found" ] || complain "OpenGL outside core/render" "$found"
 found=$(grep -rnE '\b(printf|puts|putchar|perror|exit|abort)\(|fputs\(.*std|fprintf\(std' core io ui --include=*.c --include=*.cpp || true)
