@@ -1,4 +1,3 @@
-/* The series that is shown: from opening it to letting it go. */
 #include "ui/study.h"
 
 #include "ui/host/state_files.h"

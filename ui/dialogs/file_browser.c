@@ -1,5 +1,3 @@
-/* Choosing what to open: a folder's contents, driven by keys and mouse. The path is always being typed: the part behind
- * its last slash picks names out of the folder before it. */
 #include "ui/dialogs/file_browser.h"
 
 #include "ui/viewer_private.h"

@@ -1,4 +1,5 @@
-/* Choosing a file or folder to open. */
+/* Choosing what to open: a folder's contents, driven by keys and mouse. The path is always being typed: the part behind
+ * its last slash picks names out of the folder before it. */
 #ifndef ANG_UI_FILE_BROWSER_H
 #define ANG_UI_FILE_BROWSER_H
 

@@ -1,4 +1,3 @@
-/* The help, made of the table of actions and of what hands do. */
 #include "ui/dialogs/help.h"
 
 #include "ui/actions/actions.h"

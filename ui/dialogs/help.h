@@ -1,4 +1,4 @@
-/* What keys and mouse do, over everything. */
+/* The help, made of the table of actions and of what hands do. */
 #ifndef ANG_UI_HELP_H
 #define ANG_UI_HELP_H
 

@@ -1,4 +1,3 @@
-/* What loading found: facts, warnings, files left out, assumptions. */
 #include "ui/dialogs/load_report.h"
 
 #include "ui/panes/identity.h"

@@ -1,4 +1,4 @@
-/* What loading found, to be read and copied. */
+/* What loading found: facts, warnings, files left out, assumptions. */
 #ifndef ANG_UI_LOAD_REPORT_H
 #define ANG_UI_LOAD_REPORT_H
 

@@ -1,4 +1,3 @@
-/* What stands in the middle of the window: loading, a failure, what to open, what loading found. */
 #include "ui/dialogs/messages.h"
 
 #include "ui/dialogs/help.h"

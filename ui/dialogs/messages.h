@@ -1,4 +1,4 @@
-/* What stands in the middle of the window, in front of the panes. */
+/* What stands in the middle of the window: loading, a failure, what to open, what loading found. */
 #ifndef ANG_UI_MESSAGES_H
 #define ANG_UI_MESSAGES_H
 

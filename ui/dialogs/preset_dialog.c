@@ -1,4 +1,3 @@
-/* Saving what is shown as a preset, with a name, and deleting one. */
 #include "ui/dialogs/preset_dialog.h"
 
 #include "ui/viewer_private.h"

@@ -1,4 +1,4 @@
-/* Saving or deleting a preset. */
+/* Saving what is shown as a preset, with a name, and deleting one. */
 #ifndef ANG_UI_PRESET_DIALOG_H
 #define ANG_UI_PRESET_DIALOG_H
 

@@ -1,4 +1,3 @@
-/* From what is asked for to a study that is shown: one loading at a time; the study before stays until then. */
 #include "ui/host/opening.h"
 
 #include "core/base/memory.h"

@@ -1,4 +1,4 @@
-/* From what is asked for to a study that is shown. */
+/* From what is asked for to a study that is shown: one loading at a time; the study before stays until then. */
 #ifndef ANG_UI_OPENING_H
 #define ANG_UI_OPENING_H
 

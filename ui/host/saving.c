@@ -1,4 +1,3 @@
-/* Pictures to files, through the host. */
 #include "ui/host/saving.h"
 
 #include "core/base/memory.h"

@@ -1,4 +1,4 @@
-/* Pictures to files. */
+/* Pictures to files, through the host. */
 #ifndef ANG_UI_SAVING_H
 #define ANG_UI_SAVING_H
 

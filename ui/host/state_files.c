@@ -1,4 +1,3 @@
-/* Sessions: from what is shown, and back to it; state files through the host. */
 #include "ui/host/state_files.h"
 
 #include "ui/panes/planes.h"

@@ -1,4 +1,4 @@
-/* Saved states: from what is shown, and back to it. */
+/* Saved states, as sessions: from what is shown, and back to it; files through the host. */
 #ifndef ANG_UI_STATE_FILES_H
 #define ANG_UI_STATE_FILES_H
 

@@ -1,4 +1,3 @@
-/* The panel's part on what cuts the 3D picture, in numbers. */
 #include "ui/panels/cutting_panel.h"
 
 #include "core/scene/annotation.h"

@@ -1,4 +1,4 @@
-/* The panel's part on what cuts the 3D picture. */
+/* The panel's part on what cuts the 3D picture, in numbers. */
 #ifndef ANG_UI_CUTTING_PANEL_H
 #define ANG_UI_CUTTING_PANEL_H
 

@@ -1,4 +1,3 @@
-/* The panel's list of measures, and what can be done with them by menu or key. */
 #include "ui/panels/measures.h"
 
 #include "ui/viewer_private.h"

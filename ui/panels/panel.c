@@ -1,4 +1,3 @@
-/* The panel at the side: presets, rendering, slices. */
 #include "ui/panels/panel.h"
 
 #include "ui/panels/cutting_panel.h"

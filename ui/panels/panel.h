@@ -1,4 +1,4 @@
-/* The panel at the side. */
+/* The panel at the side: presets, rendering, slices. */
 #ifndef ANG_UI_PANEL_H
 #define ANG_UI_PANEL_H
 

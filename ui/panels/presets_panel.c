@@ -1,4 +1,3 @@
-/* The panel's part with the presets: which one, its pictures, compared with what is saved, saved, deleted. */
 #include "ui/panels/presets_panel.h"
 
 #include "ui/viewer_private.h"

@@ -1,4 +1,4 @@
-/* The panel's part with the presets. */
+/* The panel's part with the presets: which one, its pictures, compared with what is saved, saved, deleted. */
 #ifndef ANG_UI_PRESETS_PANEL_H
 #define ANG_UI_PRESETS_PANEL_H
 

@@ -1,4 +1,3 @@
-/* The series of what has been opened, each with a picture of its middle slice and what the loader thinks of it. */
 #include "ui/panels/series_browser.h"
 
 #include "core/base/memory.h"

@@ -1,4 +1,4 @@
-/* The series of what has been opened, to be chosen from. */
+/* The series of what has been opened, each with a picture of its middle slice and what the loader thinks of it. */
 #ifndef ANG_UI_SERIES_BROWSER_H
 #define ANG_UI_SERIES_BROWSER_H
 

@@ -1,4 +1,3 @@
-/* Presets as small pictures of this volume, made one by one while the hands rest and kept as long as the volume. */
 #include "ui/panels/thumbnails.h"
 
 #include "ui/study.h"

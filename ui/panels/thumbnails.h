@@ -1,4 +1,4 @@
-/* Presets as small pictures of the volume. */
+/* Presets as small pictures of this volume, made one by one while the hands rest and kept as long as the volume. */
 #ifndef ANG_UI_THUMBNAILS_H
 #define ANG_UI_THUMBNAILS_H
 

@@ -1,4 +1,3 @@
-/* The transfer function over the histogram: what the hands do with points and ranges, and the numbers below. */
 #include "ui/panels/transfer_editor.h"
 
 #include "ui/panels/transfer_keys.h"

@@ -1,4 +1,4 @@
-/* The transfer function over the histogram. */
+/* The transfer function over the histogram: what the hands do with points and ranges, and the numbers below. */
 #ifndef ANG_UI_TRANSFER_EDITOR_H
 #define ANG_UI_TRANSFER_EDITOR_H
 

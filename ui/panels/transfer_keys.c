@@ -1,4 +1,3 @@
-/* The transfer-function editor by keys alone. */
 #include "ui/panels/transfer_keys.h"
 
 #include "core/scene/annotation.h"

@@ -1,4 +1,3 @@
-/* The other of the two pictures of a comparison, kept so that going from one to the other takes no time. */
 #include "ui/panes/kept_picture.h"
 
 #include "ui/viewer_private.h"

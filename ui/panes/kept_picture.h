@@ -1,4 +1,4 @@
-/* A fine picture of the 3D pane, kept while another is shown. */
+/* The other of the two pictures of a comparison, kept so that going from one to the other takes no time. */
 #ifndef ANG_UI_KEPT_PICTURE_H
 #define ANG_UI_KEPT_PICTURE_H
 

@@ -1,4 +1,3 @@
-/* Measures as they are drawn: lines, handles and labels on slices, labels on the volume. */
 #include "ui/panes/measure_drawing.h"
 
 #include "core/scene/annotation.h"

@@ -1,4 +1,4 @@
-/* Measures as they are drawn on the panes. */
+/* Measures as they are drawn: lines, handles and labels on slices, labels on the volume. */
 #ifndef ANG_UI_MEASURE_DRAWING_H
 #define ANG_UI_MEASURE_DRAWING_H
 

@@ -1,4 +1,3 @@
-/* Measuring: what the hands do with the tool. */
 #include "ui/panes/measuring.h"
 
 #include "ui/study.h"

@@ -1,4 +1,3 @@
-/* The patient's axes in the corner of the 3D pane. */
 #include "ui/panes/orientation.h"
 
 #include "ui/viewer_private.h"

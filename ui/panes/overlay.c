@@ -1,4 +1,3 @@
-/* What is written on the panes, and the status line. */
 #include "ui/panes/overlay.h"
 
 #include "core/scene/annotation.h"

@@ -1,4 +1,3 @@
-/* How far the 3D pane's refined picture may be off, found out while the hands rest. */
 #include "ui/panes/picture_error.h"
 
 #include "core/base/clock.h"

@@ -1,4 +1,4 @@
-/* How far the 3D pane's picture may be off. */
+/* How far the 3D pane's refined picture may be off, found out while the hands rest. */
 #ifndef ANG_UI_PICTURE_ERROR_H
 #define ANG_UI_PICTURE_ERROR_H
 

@@ -1,4 +1,3 @@
-/* "Show what this range selects": the voxels of a range of HU, marked in a slice. */
 #include "ui/panes/slice_mark.h"
 
 #include "core/base/memory.h"

@@ -1,4 +1,4 @@
-/* What a range of HU selects of a slice, as it is marked in its pane. */
+/* "Show what this range selects": the voxels of a range of HU, marked in a slice. */
 #ifndef ANG_UI_SLICE_MARK_H
 #define ANG_UI_SLICE_MARK_H
 
@@ -6,7 +6,7 @@
 
 typedef struct ang_viewer ang_viewer;
 
-/* What a range of HU selects of a slice, as a picture to lie over it. */
+/* A picture to lie over the slice. */
 typedef struct ang_slice_mark {
     float low, high;  /* HU that it marks */
     unsigned version; /* of the slice; 0: none */

@@ -1,4 +1,3 @@
-/* A pane with a slice: its picture, and what the hands do on it. */
 #include "ui/panes/slice_pane.h"
 
 #include "core/base/memory.h"

@@ -1,4 +1,4 @@
-/* A pane with a slice. */
+/* A pane with a slice: its picture, and what the hands do on it. */
 #ifndef ANG_UI_SLICE_PANE_H
 #define ANG_UI_SLICE_PANE_H
 

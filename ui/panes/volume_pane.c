@@ -1,4 +1,3 @@
-/* The pane with the volume rendering, and what the hands do on it. */
 #include "ui/panes/volume_pane.h"
 
 #include "core/scene/annotation.h"

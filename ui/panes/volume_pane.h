@@ -1,4 +1,4 @@
-/* The pane with the volume rendering. */
+/* The pane with the volume rendering, and what the hands do on it. */
 #ifndef ANG_UI_VOLUME_PANE_H
 #define ANG_UI_VOLUME_PANE_H
 

@@ -1,4 +1,3 @@
-/* The volume rendering's picture: coarse within a budget of time while things move, fine when they rest. */
 #include "ui/panes/volume_picture.h"
 
 #include "core/base/clock.h"

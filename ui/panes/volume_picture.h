@@ -1,4 +1,4 @@
-/* The 3D pane's picture: coarse while things move, fine when they rest. */
+/* The volume rendering's picture: coarse within a budget of time while things move, fine when they rest. */
 #ifndef ANG_UI_VOLUME_PICTURE_H
 #define ANG_UI_VOLUME_PICTURE_H
 
