@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "tests/app/program.h"
+#include "tests/io/shipped_presets.h"
 
 #define TMP     ANG_TEST_TMP "/command-line"
 #define PHANTOM TMP "/phantom"
@@ -415,25 +416,8 @@ static void nouns_follow_their_number(void **state) {
 static void presets_are_listed_and_shown(void **state) {
     (void)state;
     expect(0, "presets list");
-    static const char *const wanted[] = {"cta-head",
-                                         "cta-neck",
-                                         "cta-thorax",
-                                         "cta-coronaries",
-                                         "cta-abdominal-aorta",
-                                         "cta-runoff",
-                                         "cta-pulmonary-arteries",
-                                         "ct-bone",
-                                         "ct-skull",
-                                         "ct-soft-tissue",
-                                         "ct-lung",
-                                         "ct-airways",
-                                         "ct-skin",
-                                         "ct-metal-stent",
-                                         "ct-mip",
-                                         "ct-xray",
-                                         "mra"};
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
-        if (!strstr(output, wanted[i])) fail_msg("no preset %s", wanted[i]);
+    for (size_t i = 0; i < sizeof shipped / sizeof *shipped; i++)
+        if (!strstr(output, shipped[i])) fail_msg("no preset %s", shipped[i]);
     expect(0, "presets show cta-head");
     cJSON_Delete(parsed());
 }

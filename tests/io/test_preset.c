@@ -1,6 +1,7 @@
 /* Preset files: the shipped ones, both forms, and what is said about broken ones. */
 #include "io/json.h"
 #include "io/preset.h"
+#include "tests/io/shipped_presets.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -197,24 +198,6 @@ static void printing_keeps_everything(void **state) {
     ang_preset_free(q);
     ang_preset_free(p);
 }
-
-static const char *const shipped[] = {"cta-head",
-                                      "cta-neck",
-                                      "cta-thorax",
-                                      "cta-coronaries",
-                                      "cta-abdominal-aorta",
-                                      "cta-runoff",
-                                      "cta-pulmonary-arteries",
-                                      "ct-bone",
-                                      "ct-skull",
-                                      "ct-soft-tissue",
-                                      "ct-lung",
-                                      "ct-airways",
-                                      "ct-skin",
-                                      "ct-metal-stent",
-                                      "ct-mip",
-                                      "ct-xray",
-                                      "mra"};
 
 static void shipped_presets_are_sound(void **state) {
     (void)state;
