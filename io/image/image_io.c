@@ -30,15 +30,18 @@ static format format_of(const char *path) {
     return UNKNOWN;
 }
 
-static bool refuse(const char *path, format format, ang_error *err) {
+/* What is not written or, where `reads`, not read. */
+static bool refuse(const char *path, format format, bool reads, ang_error *err) {
     if (format == UNKNOWN) {
         return ang_fail(err, ANG_USAGE, "%s: not a picture's extension; use .png, .tif, .exr, .ppm or .pfm", path);
     }
 #ifndef ANG_WITH_OIIO
-    if (format < PPM) {
-        return ang_fail(err, ANG_USAGE,
-                        "%s: this build has no OpenImageIO (ANG_WITH_OIIO); use .ppm (8 bit) or .pfm (float)", path);
+    if (format < PPM && (reads || format != PNG)) {
+        return ang_fail(err, ANG_USAGE, "%s: this build has no OpenImageIO (ANG_WITH_OIIO); use %s or .pfm (float)",
+                        path, reads ? ".ppm (8 bit)" : ".png, .ppm (8 bit)");
     }
+#else
+    (void)reads;
 #endif
     return true;
 }
@@ -50,7 +53,7 @@ double ang_image_rounding(const char *path, const double background[4]) {
 }
 
 bool ang_image_writable(const char *path, ang_error *err) {
-    return refuse(path, format_of(path), err) && ang_file_replaceable(path, err);
+    return refuse(path, format_of(path), false, err) && ang_file_replaceable(path, err);
 }
 
 /* Premultiplied over the background, not clipped. */
@@ -117,18 +120,16 @@ static bool encode_float(format format, const ang_image *image, const double bac
 
 static bool encode_bytes(format format, const ang_image *image, const double background[4], const char *state,
                          ang_bytes *bytes, ang_error *err) {
-#ifdef ANG_WITH_OIIO
     unsigned char *pixels = NULL;
     int channels = 0;
     if (!quantise(image, background, &pixels, &channels, err)) return false;
     ang_pixels quantised = {image->width, image->height, channels, false, pixels, state};
-    bool good = ang_oiio_encode(oiio_name(format), &quantised, bytes, err);
+    bool good = format == PNG && ang_png_encode(&quantised, bytes, err);
+#ifdef ANG_WITH_OIIO
+    if (format != PNG) good = ang_oiio_encode(oiio_name(format), &quantised, bytes, err);
+#endif
     free(pixels);
     return good;
-#else
-    (void)quantise, (void)image, (void)state, (void)background, (void)bytes;
-    return refuse("picture", format, err);
-#endif
 }
 
 bool ang_image_write(const char *path, const ang_image *image, const double background[4], ang_error *err) {
@@ -138,7 +139,7 @@ bool ang_image_write(const char *path, const ang_image *image, const double back
 bool ang_image_write_stated(const char *path, const ang_image *image, const double background[4], const char *state,
                             ang_error *err) {
     format format = format_of(path);
-    if (!refuse(path, format, err)) return false;
+    if (!refuse(path, format, false, err)) return false;
     ang_bytes bytes = {0};
     bool whole = format == PNG || format == TIFF ? encode_bytes(format, image, background, state, &bytes, err)
                                                  : encode_float(format, image, background, state, &bytes, err);
@@ -150,12 +151,7 @@ bool ang_image_write_stated(const char *path, const ang_image *image, const doub
 bool ang_image_png(const ang_image *image, const double background[4], unsigned char **data, size_t *size,
                    ang_error *err) {
     ang_bytes bytes = {0};
-#ifdef ANG_WITH_OIIO
     bool whole = encode_bytes(PNG, image, background, NULL, &bytes, err);
-#else
-    (void)image, (void)background;
-    bool whole = ang_fail(err, ANG_USAGE, "this build has no OpenImageIO (ANG_WITH_OIIO), which makes PNG");
-#endif
     *data = bytes.data;
     *size = bytes.size;
     return whole;
@@ -164,7 +160,7 @@ bool ang_image_png(const ang_image *image, const double background[4], unsigned 
 bool ang_picture_read(const char *path, ang_image *out, ang_error *err) {
     *out = (ang_image){0};
     format format = format_of(path);
-    if (!refuse(path, format, err)) return false;
+    if (!refuse(path, format, true, err)) return false;
     if (format == PPM || format == PFM) return ang_portable_read(path, out, err);
 #ifdef ANG_WITH_OIIO
     return ang_oiio_read(path, oiio_name(format), out, err);
@@ -179,7 +175,7 @@ char *ang_image_state(const char *path, ang_error *err) {
         ang_fail(err, ANG_USAGE, "%s: carries no state; .png and .exr may", path);
         return NULL;
     }
-    if (!refuse(path, format, err)) return NULL;
+    if (!refuse(path, format, true, err)) return NULL;
 #ifdef ANG_WITH_OIIO
     return ang_oiio_text_of(path, oiio_name(format), ANG_IMAGE_STATE, err);
 #else

@@ -32,8 +32,8 @@ char *ang_image_state(const char *path, ang_error *err);
  * colour and alpha are both rounded (unassociated alpha over a background that is not opaque), 0 for floats. */
 double ang_image_rounding(const char *path, const double background[4]);
 
-/* The bytes of the PNG file that ang_image_write would write, into *data (free with free()). False with ANG_USAGE in a
- * build without OpenImageIO, ANG_OUTPUT, ANG_LIMIT. Thread safe. */
+/* The bytes of the PNG file that ang_image_write would write, into *data (free with free()). False with
+ * ANG_LIMIT. Thread safe. */
 bool ang_image_png(const ang_image *image, const double background[4], unsigned char **data, size_t *size,
                    ang_error *err);
 

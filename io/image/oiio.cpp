@@ -27,9 +27,8 @@ static bool encode(const char *format, const ang_pixels &pixels, Filesystem::IOP
     spec.attribute("DateTime", "");
     if (pixels.state && std::strcmp(format, "tiff") != 0) spec.attribute(ANG_IMAGE_STATE, pixels.state);
     if (pixels.channels == 4 && !pixels.is_float) spec.attribute("oiio:UnassociatedAlpha", 1);
-    /* In TIFF a colour space becomes an EXIF folder, which the library, writing to memory, links in place of the
-     * picture's own. */
-    if (std::strcmp(format, "png") == 0) spec.attribute("oiio:ColorSpace", "sRGB");
+    /* Without a colour space: in TIFF it becomes an EXIF folder, which the library, writing to memory, links in place
+     * of the picture's own. */
     if (std::strcmp(format, "tiff") == 0) spec.attribute("compression", "zip");
     spec.attribute("oiio:ioproxy", TypeDesc::PTR, &proxy);
     if (!output->open(std::string("picture.") + format, spec) || !output->write_image(type, pixels.data) ||
