@@ -40,13 +40,12 @@ typedef struct session {
     ang_render_summary summary;
 } session;
 
-static bool open_gl(session *run, ang_backend backend, ang_error *err) {
-    run->gl = ang_gl_create(backend, err);
-    if (!run->gl) return false;
+static void take_gl(session *run, ang_gl *gl) {
+    run->gl = gl;
+    if (!gl) return;
     run->summary.gl_backend = ang_gl_backend(run->gl);
     run->summary.gl_renderer = ang_gl_renderer(run->gl);
     run->summary.gl_version = ang_gl_version(run->gl);
-    return true;
 }
 
 /* Options that leave this method as it is. */
@@ -98,20 +97,34 @@ static bool open_planned(session *run, ang_error *err) {
     return true;
 }
 
+/* A GL context where the method, which may yet have to be chosen, needs one. Where no GPU answers and the processor is
+ * faster without OpenGL the method is chosen here, and `why` becomes the reason. */
+static bool open_gl(session *run, const char **why, ang_error *err) {
+    ang_backend backend = (ang_backend)ang_backend_from_name(run->options->backend);
+    const ang_picture *picture = &run->picture;
+    bool automatic = !run->method, forced = picture->render.forced >> ANG_PART_GL & 1u;
+    bool wants_gl = automatic || forced ? backend != ANG_BACKEND_NONE : run->method->needs_gl;
+    if (!wants_gl) return true;
+    if (automatic && !forced && backend == ANG_BACKEND_AUTO && !ang_app_budget_given(run->options)) {
+        take_gl(run, ang_gl_create_on_gpu());
+        if (!run->gl) run->method = ang_method_choose_without_gl(run->volume, &picture->scene, &picture->render, why);
+        if (run->gl || run->method) return true;
+    }
+    take_gl(run, ang_gl_create(backend, err));
+    return run->gl != NULL;
+}
+
 /* Finds the method and, where it needs one, a GL context. */
 static bool open_renderer(session *run, ang_error *err) {
     const char *name = run->options->method, *why = "--method";
-    ang_backend backend = (ang_backend)ang_backend_from_name(run->options->backend);
     bool automatic = strcmp(name, "auto") == 0;
     run->method = automatic ? NULL : ang_method_find(name);
     if (!automatic && !run->method) return ang_fail(err, ANG_USAGE, "--method %s: there is no such method", name);
-    bool forced = run->picture.render.forced >> ANG_PART_GL & 1u;
-    bool wants_gl = automatic || forced ? backend != ANG_BACKEND_NONE : run->method->needs_gl;
-    if (wants_gl && !open_gl(run, backend, err)) return false;
+    if (!open_gl(run, &why, err)) return false;
     if (ang_app_budget_given(run->options) && !run->picture.lookups) return open_planned(run, err);
     if (ang_app_budget_given(run->options))
         ang_notes_add(&run->summary.warnings, "--max-error and --max-time have no effect with --mode lookups");
-    if (automatic)
+    if (!run->method)
         run->method = ang_method_choose(run->gl, run->volume, &run->picture.scene, &run->picture.render, &why);
     ang_plan_use(&run->summary.plan, "%s: %s", run->method->name, run->method->title);
     if (automatic) ang_plan_leave_out(&run->summary.plan, "other methods", "%s", why);

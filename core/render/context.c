@@ -119,6 +119,14 @@ ang_gl *ang_gl_create(ang_backend backend, ang_error *err) {
     return NULL;
 }
 
+ang_gl *ang_gl_create_on_gpu(void) {
+    ang_gl *gl = ang_alloc(1, sizeof *gl, "the GL context", NULL);
+    ang_gl_attempts attempts = {""};
+    if (gl && ang_gl_open_egl(gl, ANG_EGL_GPU, &attempts)) return gl;
+    free(gl);
+    return NULL;
+}
+
 static void leave_to_owner(ang_gl *gl) { (void)gl; }
 
 ang_gl *ang_gl_adopt(ang_gl_lookup lookup, const char *words, ang_error *err) {

@@ -19,6 +19,8 @@ int ang_backend_from_name(const char *name);
  * software, in this order. NULL with ANG_GL and a message that says what was tried and why each failed. The libraries
  * are opened only when a backend is tried. One context at a time may be current in the process. */
 ang_gl *ang_gl_create(ang_backend backend, ang_error *err);
+/* The same on a GPU alone; NULL where none answers, which is found out without the libraries of OpenGL in software. */
+ang_gl *ang_gl_create_on_gpu(void);
 /* The same for a context that a window system has made current and goes on owning: `lookup` finds its functions,
  * `words` (static) names it as ang_gl_backend says it. NULL with ANG_GL where it is below 4.3. */
 typedef void (*ang_gl_function)(void);

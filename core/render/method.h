@@ -111,6 +111,9 @@ const ang_method *ang_method_find(const char *name);
  * becomes the reason. */
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                                     const ang_render_options *options, const char **why);
+/* The same before there is a context, where no GPU answers: NULL where OpenGL in software is wanted. */
+const ang_method *ang_method_choose_without_gl(const ang_volume *volume, const ang_scene *scene,
+                                               const ang_render_options *options, const char **why);
 
 extern const ang_method ang_method_cpu;
 extern const ang_method ang_method_reference;

@@ -51,6 +51,19 @@ static bool needs_whole_steps(const ang_volume *volume, const ang_scene *scene, 
     return ang_classification_choose(options->classification, &stiffness, step).prefix;
 }
 
+/* Whether the ray caster on the processor can hold the volume and takes what is asked of it. */
+static bool lanes_do(const ang_volume *volume, const ang_scene *scene, const ang_render_options *options) {
+    return ang_volume_count(volume) <= INT32_MAX && !ang_method_ignores(&ang_method_cpu, options) &&
+           !needs_whole_steps(volume, scene, options);
+}
+
+const ang_method *ang_method_choose_without_gl(const ang_volume *volume, const ang_scene *scene,
+                                               const ang_render_options *options, const char **why) {
+    ang_drawing_facts facts = {.gl = true, .software = true, .lanes = ang_volume_count(volume) <= INT32_MAX};
+    facts.lanes_do = lanes_do(volume, scene, options);
+    return ang_plan_drawing(&facts, why) == ANG_DRAW_LANES ? &ang_method_cpu : NULL;
+}
+
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                                     const ang_render_options *options, const char **why) {
     static const ang_method *const by_drawing[] = {
@@ -69,7 +82,6 @@ const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const 
                                .asks_passes = options->separate_passes || steps,
                                .software = gl && ang_gl_is_software(gl),
                                .lanes = ang_volume_count(volume) <= INT32_MAX};
-    facts.lanes_do = facts.software && facts.lanes && !ang_method_ignores(&ang_method_cpu, options) &&
-                     !needs_whole_steps(volume, scene, options);
+    facts.lanes_do = facts.software && lanes_do(volume, scene, options);
     return by_drawing[ang_plan_drawing(&facts, why)];
 }

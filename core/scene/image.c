@@ -17,7 +17,8 @@ void ang_image_clear(ang_image *image) {
     *image = (ang_image){0};
 }
 
-static float clip(double value) { return (float)fmin(fmax(value, 0), 1); }
+/* Not fmin and fmax, which are calls: 0 for what is not a number, as they give. */
+static float clip(double value) { return value >= 1 ? 1 : value > 0 ? (float)value : 0; }
 
 /* The two pixels between which `at` lies, and the weight of the second. */
 static float between(int at, int first, int stride, int size, int *before, int *after) {

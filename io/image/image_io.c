@@ -71,8 +71,9 @@ static bool flatten(const ang_image *image, const double background[4], int chan
     return true;
 }
 
+/* A float times 255 is exact in double, and so is its half up. */
 static unsigned char to_byte(double value) {
-    return value >= 1 ? 255 : value > 0 ? (unsigned char)lround(255 * value) : 0;
+    return value >= 1 ? 255 : value > 0 ? (unsigned char)(255 * value + 0.5) : 0;
 }
 
 /* 8-bit unassociated RGBA, or RGB where all is opaque or `channels` says 3. */
