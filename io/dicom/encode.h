@@ -20,4 +20,9 @@ typedef struct ang_dicom_text {
 bool ang_gdcm_encode(const ang_dicom_text *texts, size_t count, int rows, int columns, const uint16_t *pixels,
                      unsigned char **out, size_t *size, ang_error *err);
 
+/* The module of codec.h exports under the name ANG_GDCM_ENCODE a pointer to a function like this. */
+typedef bool ang_dicom_function(const ang_dicom_text *texts, size_t count, int rows, int columns,
+                                const uint16_t *pixels, unsigned char **out, size_t *size, ang_error *err);
+#define ANG_GDCM_ENCODE "ang_gdcm_encoder"
+
 #endif

@@ -97,11 +97,13 @@ static bool decode(const uint8_t *stream, size_t length, const ang_codec_frame *
     return true;
 }
 
-extern "C" bool ang_codec_decode(const uint8_t *stream, size_t length, const ang_codec_frame *frame, void *pixels,
-                                 size_t size, ang_error *err) {
+static bool decode_safely(const uint8_t *stream, size_t length, const ang_codec_frame *frame, void *pixels, size_t size,
+                          ang_error *err) {
     try {
         return decode(stream, length, frame, pixels, size, err);
     } catch (const std::exception &) {
         return ang_fail(err, ANG_INPUT, "its pixels cannot be decoded (transfer syntax %s)", frame->transfer_syntax);
     }
 }
+
+extern "C" __attribute__((visibility("default"))) ang_codec_function *const ang_gdcm_decode = decode_safely;

@@ -57,8 +57,8 @@ static std::string encode(const ang_dicom_text *texts, size_t count, int rows, i
     return writer.Write() ? stream.str() : std::string();
 }
 
-bool ang_gdcm_encode(const ang_dicom_text *texts, size_t count, int rows, int columns, const uint16_t *pixels,
-                     unsigned char **out, size_t *size, ang_error *err) {
+static bool encode_safely(const ang_dicom_text *texts, size_t count, int rows, int columns, const uint16_t *pixels,
+                          unsigned char **out, size_t *size, ang_error *err) {
     try {
         std::string file = encode(texts, count, rows, columns, pixels);
         if (file.empty()) return ang_fail(err, ANG_OUTPUT, "GDCM cannot encode the slice");
@@ -73,3 +73,5 @@ bool ang_gdcm_encode(const ang_dicom_text *texts, size_t count, int rows, int co
         return ang_fail(err, ANG_OUTPUT, "GDCM cannot encode the slice (%s)", exception.what());
     }
 }
+
+extern "C" __attribute__((visibility("default"))) ang_dicom_function *const ang_gdcm_encoder = encode_safely;
