@@ -25,7 +25,7 @@ typedef struct ang_pixels {
     const char *state; /* text to go with it as ANG_IMAGE_STATE, in png and openexr; NULL: none */
 } ang_pixels;
 
-/* A PNG file of pixels that are not float, on all cores; the same bytes whatever their number. False with ANG_LIMIT.
+/* A PNG file of pixels that are not float. False with ANG_LIMIT.
  * Thread safe. */
 bool ang_png_encode(const ang_pixels *pixels, ang_bytes *out, ang_error *err);
 

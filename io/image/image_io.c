@@ -30,20 +30,26 @@ static format format_of(const char *path) {
     return UNKNOWN;
 }
 
+/* Whether this build has what reads, or writes, a format. */
+static bool known(format format, bool reads) {
+#ifdef ANG_WITH_PNG
+    if (format == PNG && !reads) return true;
+#endif
+#ifdef ANG_WITH_OIIO
+    if (format == TIFF || format == EXR || (format == PNG && reads)) return true;
+#endif
+    (void)reads;
+    return format >= PPM;
+}
+
 /* What is not written or, where `reads`, not read. */
 static bool refuse(const char *path, format format, bool reads, ang_error *err) {
-    if (format == UNKNOWN) {
+    if (format == UNKNOWN)
         return ang_fail(err, ANG_USAGE, "%s: not a picture's extension; use .png, .tif, .exr, .ppm or .pfm", path);
-    }
-#ifndef ANG_WITH_OIIO
-    if (format < PPM && (reads || format != PNG)) {
-        return ang_fail(err, ANG_USAGE, "%s: this build has no OpenImageIO (ANG_WITH_OIIO); use %s or .pfm (float)",
-                        path, reads ? ".ppm (8 bit)" : ".png, .ppm (8 bit)");
-    }
-#else
-    (void)reads;
-#endif
-    return true;
+    bool png = format == PNG && !reads;
+    return known(format, reads) ||
+           ang_fail(err, ANG_USAGE, "%s: this build has no %s; use .ppm (8 bit) or .pfm (float)", path,
+                    png ? "libpng (ANG_WITH_PNG)" : "OpenImageIO (ANG_WITH_OIIO)");
 }
 
 double ang_image_rounding(const char *path, const double background[4]) {
@@ -125,7 +131,10 @@ static bool encode_bytes(format format, const ang_image *image, const double bac
     int channels = 0;
     if (!quantise(image, background, &pixels, &channels, err)) return false;
     ang_pixels quantised = {image->width, image->height, channels, false, pixels, state};
-    bool good = format == PNG && ang_png_encode(&quantised, bytes, err);
+    bool good = false;
+#ifdef ANG_WITH_PNG
+    if (format == PNG) good = ang_png_encode(&quantised, bytes, err);
+#endif
 #ifdef ANG_WITH_OIIO
     if (format != PNG) good = ang_oiio_encode(oiio_name(format), &quantised, bytes, err);
 #endif

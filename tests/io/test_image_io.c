@@ -13,7 +13,6 @@
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <cmocka.h>
 
@@ -314,91 +313,8 @@ static void a_png_in_memory_is_that_of_the_file(void **state) {
     ang_image_clear(&image);
 }
 
-/* One big-endian number of a PNG file. */
-static uint32_t word(const unsigned char *at) {
-    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
-}
-
-/* The compressed stream of a PNG file, its chunks' checksums compared with zlib's. */
-static size_t gather_stream(const unsigned char *data, size_t size, unsigned char *stream) {
-    size_t gathered = 0, at = 8;
-    while (at < size) {
-        uint32_t length = word(data + at);
-        assert_int_equal(word(data + at + 8 + length), crc32(0, data + at + 4, length + 4));
-        if (memcmp(data + at + 4, "IDAT", 4) == 0) {
-            memcpy(stream + gathered, data + at + 8, length);
-            gathered += length;
-        }
-        at += 12 + length;
-    }
-    assert_int_equal(at, size);
-    return gathered;
-}
-
-/* Undone as section 9 of the standard has it, byte by byte. */
-static void unfilter(unsigned char *rows, int height, int bytes, int pixel) {
-    for (int y = 0; y < height; y++)
-        for (int i = 0; i < bytes; i++) {
-            unsigned char *row = rows + (size_t)y * (size_t)(bytes + 1) + 1, *above = row - bytes - 1;
-            int a = i >= pixel ? row[i - pixel] : 0, b = y > 0 ? above[i] : 0;
-            int c = i >= pixel && y > 0 ? above[i - pixel] : 0, p = a + b - c;
-            int paeth = abs(p - a) <= abs(p - b) && abs(p - a) <= abs(p - c) ? a : abs(p - b) <= abs(p - c) ? b : c;
-            int expected[] = {0, a, b, (a + b) / 2, paeth};
-            assert_in_range(row[-1], 0, 4);
-            row[i] = (unsigned char)(row[i] + expected[row[-1]]);
-        }
-}
-
-/* Several stripes, flat parts, ramps and noise, in three channels and in four. */
-static void a_png_holds_its_pixels(void **state) {
-    (void)state;
-    enum { WIDE = 300, HIGH = 400 };
-    for (int channels = 3; channels <= 4; channels++) {
-        ang_image image;
-        ang_error err = {0};
-        assert_true(ang_image_create(&image, WIDE, HIGH, &err));
-        uint32_t random = 7;
-        for (int i = 0; i < WIDE * HIGH; i++) {
-            random = random * 1664525u + 1013904223u;
-            int x = i % WIDE, y = i / WIDE, noise = y % 100 > 60 ? (int)(random >> 26) : 0;
-            float alpha = channels == 4 && x > 100 ? (float)(y % 256) / 255 : 1;
-            float value[3] = {(float)((x + noise) % 256) / 255, (float)(y % 256) / 255, x < 150 ? 0 : 0.5F};
-            for (int c = 0; c < 3; c++) image.rgba[4 * i + c] = alpha * value[c];
-            image.rgba[4 * i + 3] = alpha;
-        }
-        const double clear[4] = {0, 0, 0, 0};
-        unsigned char *data = NULL;
-        size_t size = 0;
-        assert_true(ang_image_png(&image, channels == 3 ? black : clear, &data, &size, &err));
-        assert_int_equal(word(data + 16), WIDE);
-        assert_int_equal(word(data + 20), HIGH);
-        assert_int_equal(data[25], channels == 3 ? 2 : 6);
-        unsigned char *stream = malloc(size);
-        size_t length = gather_stream(data, size, stream);
-        int bytes = WIDE * channels;
-        uLongf total = (uLongf)(bytes + 1) * HIGH;
-        unsigned char *rows = malloc(total);
-        assert_int_equal(uncompress(rows, &total, stream, length), Z_OK);
-        assert_int_equal(total, (bytes + 1) * HIGH);
-        unfilter(rows, HIGH, bytes, channels);
-        for (int i = 0; i < WIDE * HIGH; i++) {
-            const float *p = image.rgba + 4 * i;
-            const unsigned char *pixel = rows + (size_t)(i / WIDE) * (size_t)(bytes + 1) + 1 + i % WIDE * channels;
-            for (int c = 0; c < channels; c++) {
-                double value = c == 3 ? (double)p[3] : p[3] > 0 ? (double)p[c] / (double)p[3] : 0;
-                assert_true(fabs(255 * value - pixel[c]) <= 0.5 + 1e-4);
-            }
-        }
-        free(rows);
-        free(stream);
-        free(data);
-        ang_image_clear(&image);
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_png_holds_its_pixels),
         cmocka_unit_test(every_format_comes_back),
         cmocka_unit_test(float_is_not_clipped_and_keeps_rows),
         cmocka_unit_test(background_shows_through),
