@@ -250,6 +250,8 @@ static bool work(ang_viewer *viewer, const ang_viewer_options *options, ang_erro
         ang_series_browser_step(viewer);
         take_dropped(viewer);
         bool more = ang_window_input(viewer->window, &viewer->input);
+        /* Also for what comes while frames settle: a menu shows in the second frame after its click. */
+        if (viewer->input.since_seconds > 0) viewer->redraws = settling_frames;
         if (viewer->input.width < 1 || viewer->input.height < 1) {
             ang_window_wait(viewer->window, INFINITY); /* iconified */
             continue;
