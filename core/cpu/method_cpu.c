@@ -129,7 +129,7 @@ static bool update_grid(ang_renderer *renderer, const ang_render_options *option
     }
     bool same_threshold = before->threshold <= now->threshold && before->threshold >= now->threshold;
     bool changed, current = renderer->grid_current && before->mode == now->mode && same_threshold;
-    if (!current) ang_block_grid_update(grid, now, true, options->threads, &changed);
+    if (!current && !ang_block_grid_update(grid, now, true, options->threads, &changed, err)) return false;
     renderer->gridded = *now;
     renderer->grid_current = true;
     d->facts.blocks = grid->blocks;

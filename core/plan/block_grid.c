@@ -7,6 +7,7 @@
 
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { BLOCKS_PER_PIECE = 16384 };
 
@@ -31,34 +32,44 @@ bool ang_block_grid_start(ang_block_grid *grid, const ang_volume *volume, ang_oc
 
 typedef struct update_job {
     ang_block_grid *grid;
-    const ang_visibility *visibility;
-    bool rounding;
+    ang_visibility_lookup lookup;
     atomic_bool changed;
     atomic_size_t shown;
     struct {
-        _Alignas(64) ang_block_box box;
+        _Alignas(64) ang_block_box box; /* no two threads write to one line of the cache */
     } worker[ANG_MAX_THREADS];
 } update_job;
 
-static bool shows(const update_job *job, ang_minmax range) {
-    if (ang_visibility_of(job->visibility, range)) return true;
-    if (!job->rounding || range.min == range.max) return false;
-    range.min = (uint16_t)(range.min > 0 ? range.min - 1 : 0);
-    range.max = (uint16_t)(range.max < UINT16_MAX ? range.max + 1 : UINT16_MAX);
-    return ang_visibility_of(job->visibility, range);
+/* Which of a row of blocks show, and how many. */
+static unsigned update_row(const ang_visibility_lookup *lookup, const ang_minmax *nodes, int width, uint8_t *visible,
+                           bool *changed) {
+    const uint32_t *lower = lookup->lower, *upper = lookup->upper;
+    unsigned shown = 0, differs = 0;
+    for (int x = 0; x < width; x++) {
+        unsigned min = (unsigned)nodes[x].min - lookup->first, max = (unsigned)nodes[x].max - lookup->first;
+        uint8_t now = min < max ? upper[max] > lower[min] : lookup->single[min];
+        differs |= (unsigned)(now ^ visible[x]);
+        visible[x] = now;
+        shown += now;
+    }
+    *changed = *changed || differs;
+    return shown;
 }
 
-static void update_blocks(void *context, size_t begin, size_t end, int worker) {
+static void update_rows(void *context, size_t begin, size_t end, int worker) {
     update_job *job = context;
     ang_block_grid *grid = job->grid;
+    const ang_octree_level *leaves = &grid->octree->level[0];
+    size_t width = (size_t)leaves->dims[0], shown = 0;
     bool changed = false;
-    size_t shown = 0;
-    for (size_t i = begin; i < end; i++) {
-        uint8_t now = shows(job, grid->octree->level[0].nodes[i]);
-        changed = changed || now != grid->visible[i];
-        grid->visible[i] = now;
-        shown += now;
-        if (now) ang_block_box_add(&job->worker[worker].box, grid->octree, i);
+    for (size_t row = begin; row < end; row++) {
+        uint8_t *visible = grid->visible + row * width;
+        unsigned here = update_row(&job->lookup, leaves->nodes + row * width, leaves->dims[0], visible, &changed);
+        shown += here;
+        if (here == 0) continue;
+        const uint8_t *first = memchr(visible, 1, width), *last = memrchr(visible, 1, width);
+        ang_block_box_add(&job->worker[worker].box, grid->octree, row * width + (size_t)(first - visible));
+        ang_block_box_add(&job->worker[worker].box, grid->octree, row * width + (size_t)(last - visible));
     }
     atomic_fetch_add(&job->shown, shown);
     if (changed) atomic_store(&job->changed, true);
@@ -71,19 +82,26 @@ static void join(ang_block_box *box, const ang_block_box *more) {
     }
 }
 
-void ang_block_grid_update(ang_block_grid *grid, const ang_visibility *visibility, bool rounding, int threads,
-                           bool *changed) {
-    update_job job = {.grid = grid, .visibility = visibility, .rounding = rounding};
+bool ang_block_grid_update(ang_block_grid *grid, const ang_visibility *visibility, bool rounding, int threads,
+                           bool *changed, ang_error *err) {
+    update_job job = {.grid = grid};
+    const ang_octree *octree = grid->octree;
+    const int *dims = octree->level[0].dims;
+    if (!ang_visibility_lookup_make(visibility, octree->level[octree->levels - 1].nodes[0], rounding, &job.lookup, err))
+        return false;
     int workers = ang_thread_count(threads);
     for (int i = 0; i < workers; i++) job.worker[i].box = ang_block_box_none();
-    ang_parallel_for(grid->blocks, BLOCKS_PER_PIECE, workers, update_blocks, &job);
+    ang_parallel_for((size_t)dims[1] * (size_t)dims[2], 1 + BLOCKS_PER_PIECE / (size_t)dims[0], workers, update_rows,
+                     &job);
+    ang_visibility_lookup_clear(&job.lookup);
     grid->visible_blocks = job.shown;
     grid->box = ang_block_box_none();
     for (int i = 0; i < workers; i++) join(&grid->box, &job.worker[i].box);
     *changed = grid->changes == 0 || job.changed;
-    if (!*changed) return;
-    ang_block_distances(grid->octree->level[0].dims, grid->visible, grid->distance);
+    if (!*changed) return true;
+    ang_block_distances(dims, grid->visible, grid->distance);
     grid->changes++;
+    return true;
 }
 
 void ang_block_grid_clear(ang_block_grid *grid) {

@@ -29,9 +29,9 @@ bool ang_block_grid_start(ang_block_grid *grid, const ang_volume *volume, ang_oc
 ang_octree *ang_block_grid_octree(const ang_volume *volume, ang_error *err);
 /* Brings a started grid up to date; true in *changed where other blocks show than before, and only then the distances
  * are made anew. `rounding`: whether values may lie beyond their voxels' by a unit in the last place, as interpolation
- * in float gives them, and count as shown where the next whole value does. */
-void ang_block_grid_update(ang_block_grid *grid, const ang_visibility *visibility, bool rounding, int threads,
-                           bool *changed);
+ * in float gives them, and count as shown where the next whole value does. False with ANG_LIMIT, nothing changed. */
+bool ang_block_grid_update(ang_block_grid *grid, const ang_visibility *visibility, bool rounding, int threads,
+                           bool *changed, ang_error *err);
 /* Frees what it holds and makes it empty. */
 void ang_block_grid_clear(ang_block_grid *grid);
 

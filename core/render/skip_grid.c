@@ -77,11 +77,10 @@ bool ang_skip_grid_update(ang_skip_grid *grid, ang_gl *gl, const ang_volume *vol
     uint8_t *before = fresh ? NULL : ang_alloc(grid->shown.blocks, 1, "grid of distances", err);
     if (!fresh && !before) return false;
     if (before) memcpy(before, grid->shown.distance, grid->shown.blocks);
-    bool changed;
-    ang_block_grid_update(&grid->shown, visibility, false, threads, &changed);
+    bool changed = false, updated = ang_block_grid_update(&grid->shown, visibility, false, threads, &changed, err);
     if (changed) upload(grid, before);
     free(before);
-    return !changed || ang_gl_check(gl, err);
+    return updated && (!changed || ang_gl_check(gl, err));
 }
 
 void ang_skip_grid_destroy(ang_skip_grid *grid) {

@@ -260,11 +260,21 @@ static void fill_entries(const builder *b, ang_transfer_tables *tables) {
     }
 }
 
+/* Values between the same two points, none of them next to one, are alike: one of them is looked up. */
 static void fill_visible(const builder *b, ang_transfer_tables *tables) {
-    for (int v = 0; v < STORED_VALUES; v++) {
-        double hu = hu_at(b, v), next = hu_at(b, v + 1);
-        tables->point_visible[v] = ang_transfer_visible(b->transfer, hu, hu);
-        tables->visible[v + 1] = tables->visible[v] + ang_transfer_visible(b->transfer, hu, next);
+    const ang_transfer_point *points = b->transfer->points;
+    size_t next = 0; /* the first point beyond the value */
+    for (int v = 0; v < STORED_VALUES;) {
+        double hu = hu_at(b, v);
+        bool at = ang_transfer_visible(b->transfer, hu, hu),
+             after = ang_transfer_visible(b->transfer, hu, hu_at(b, v + 1));
+        while (next < b->count && points[next].hu <= hu) next++;
+        bool apart = next == 0 || points[next - 1].hu <= hu_at(b, v - 1);
+        do {
+            tables->point_visible[v] = at;
+            tables->visible[v + 1] = tables->visible[v] + after;
+            v++;
+        } while (apart && v < STORED_VALUES && (next == b->count || hu_at(b, v + 1) < points[next].hu));
     }
 }
 
@@ -333,13 +343,17 @@ bool ang_tables_visible(const ang_transfer_tables *tables, uint16_t min, uint16_
     return tables->visible[max] > tables->visible[min];
 }
 
-bool ang_tables_shows(const ang_transfer_tables *tables, uint16_t min, uint16_t max) {
-    if (tables->per_value >= 1) return ang_tables_visible(tables, min, max);
+void ang_tables_widen(const ang_transfer_tables *tables, uint16_t *min, uint16_t *max) {
+    if (tables->per_value >= 1) return;
     double width = 1 / tables->per_value;
-    double low = tables->first + width * floor((min - tables->first) / width);
-    double high = tables->first + width * ceil((max - tables->first) / width);
+    double low = tables->first + width * floor((*min - tables->first) / width);
+    double high = tables->first + width * ceil((*max - tables->first) / width);
     /* One interval more: a step inside an interval moves to its nearer end. */
-    low = fmin(fmax(low - width, 0), 65535);
-    high = fmin(fmax(high + width, 0), 65535);
-    return ang_tables_visible(tables, (uint16_t)low, (uint16_t)high);
+    *min = (uint16_t)fmin(fmax(low - width, 0), 65535);
+    *max = (uint16_t)fmin(fmax(high + width, 0), 65535);
+}
+
+bool ang_tables_shows(const ang_transfer_tables *tables, uint16_t min, uint16_t max) {
+    ang_tables_widen(tables, &min, &max);
+    return ang_tables_visible(tables, min, max);
 }

@@ -43,5 +43,7 @@ bool ang_tables_visible(const ang_transfer_tables *tables, uint16_t min, uint16_
 /* The same of what the table's interpolant shows, which spreads to the ends of intervals wider than a stored value:
  * what renderers that look up the table must ask before they skip. */
 bool ang_tables_shows(const ang_transfer_tables *tables, uint16_t min, uint16_t max);
+/* Moves the ends of a range so far that ang_tables_visible of it is ang_tables_shows; each end moves by itself. */
+void ang_tables_widen(const ang_transfer_tables *tables, uint16_t *min, uint16_t *max);
 
 #endif

@@ -20,7 +20,8 @@ static int nearest(const int dims[3], const uint8_t *visible, int x, int y, int 
 
 static void distances_are_those_of_the_definition(void **state) {
     (void)state;
-    static const int shapes[][3] = {{1, 1, 1}, {17, 1, 1}, {1, 9, 4}, {13, 11, 7}, {6, 5, 21}};
+    static const int shapes[][3] = {{1, 1, 1},  {17, 1, 1},  {1, 9, 4},   {13, 11, 7},
+                                    {6, 5, 21}, {131, 4, 3}, {128, 3, 3}, {300, 2, 2}};
     uint64_t seed = 11;
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++)
         for (int filling = 0; filling < 5; filling++) {
