@@ -316,7 +316,8 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     size_t rows = ((size_t)scene->height + ANG_CAST_TILE - 1) / ANG_CAST_TILE;
     picture_job job = {
         .cast = &cast, .tile = renderer->width.tile, .columns = columns, .tiles = columns * rows, .progress = progress};
-    ang_parallel_for(job.tiles, 4, options->threads, draw_tiles, &job);
+    /* Whoever may interrupt it should not wait for more than a tile of each thread. */
+    ang_parallel_for(job.tiles, progress ? 1 : 4, options->threads, draw_tiles, &job);
     if (job.cancelled) return ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering");
     if (scene->objects) ang_object_layer_join(&renderer->objects, scene, image);
     bool light = scene->mode == ANG_MODE_DVR, misses = light && renderer->classification.may_miss;
@@ -369,6 +370,7 @@ const ang_method ang_method_cpu = {
     .title = "rays on the processor, in SIMD on all cores, skipping what shows nothing",
     .source = "DESIGN.md, Rendering methods; numerics.md",
     .takes = ANG_TAKES_TERMINATION | ANG_TAKES_NO_SKIP,
+    .splits = true,
     .create = create,
     .render = render,
     .explain = explain,

@@ -59,6 +59,7 @@ const ang_method ang_method_reference = {
     .title = "double precision, exact per-cell integration; slow; the truth",
     .source = "DESIGN.md, Scene conventions; numerics.md",
     .exact = true,
+    .splits = true,
     .create = create,
     .render = render,
     .explain = explain,

@@ -84,6 +84,8 @@ typedef struct ang_method {
     bool needs_gl;
     bool exact;     /* takes no steps: neither the step nor an error estimate means anything to it */
     unsigned takes; /* ang_method_takes */
+    bool splits; /* a subset of a picture (ang_scene_subset) is its pixels to the bit and takes but their share of its
+                    time */
     /* A renderer of this volume, which must outlive it; `gl` is NULL where needs_gl is false. Of `options`, gpu_memory
      * holds for the renderer's life. NULL with ANG_GL, ANG_LIMIT. */
     ang_renderer *(*create)(ang_gl *gl, const ang_volume *volume, const ang_render_options *options, ang_error *err);

@@ -240,13 +240,28 @@ double ang_scene_grey(const ang_scene *scene, double hu) {
     return fmin(fmax((hu - scene->window_centre) / scene->window_width + 0.5, 0), 1);
 }
 
-/* Moves the plane of p so that pixels are those of the sampling: their centres stay where they are. */
-static void take_samples(ang_ray_frame *frame, const ang_sampling *sampling) {
-    double left = sampling->first_x + 0.5 - 0.5 * sampling->stride;
-    double top = sampling->first_y + 0.5 - 0.5 * sampling->stride;
-    frame->origin_mm = ang_vec3_along(ang_vec3_along(frame->origin_mm, frame->step_x_mm, left), frame->step_y_mm, top);
-    frame->step_x_mm = ang_vec3_scale(frame->step_x_mm, sampling->stride);
-    frame->step_y_mm = ang_vec3_scale(frame->step_y_mm, sampling->stride);
+static double greatest(ang_vec3 v) { return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z))); }
+
+static ang_vec3 on_grid(ang_vec3 v, double grid) {
+    return (ang_vec3){rint(v.x / grid) * grid, rint(v.y / grid) * grid, rint(v.z / grid) * grid};
+}
+
+/* The plane of p about `middle`, that of the whole picture, in one of the two spaces. All lies on a grid, a power of
+ * two some 1e-14 of the largest number, so that no sum of an origin, steps for pixels, and the eye is rounded: a
+ * pixel's ray is the same bits in the picture and in each of its subsets. */
+static void lay_pixels(ang_vec3 middle, const ang_sampling *sampling, ang_vec3 *origin, ang_vec3 *step_x,
+                       ang_vec3 *step_y, ang_vec3 *eye) {
+    double across = sampling->width * greatest(*step_x), down = sampling->height * greatest(*step_y);
+    double largest = fmax(fmax(greatest(middle), greatest(*eye)), fmax(across, down));
+    double grid = ldexp(1, ilogb(largest) - 47);
+    double left = sampling->first_x + 0.5 - 0.5 * sampling->stride - 0.5 * sampling->width;
+    double top = sampling->first_y + 0.5 - 0.5 * sampling->stride - 0.5 * sampling->height;
+    *eye = on_grid(*eye, grid);
+    *step_x = on_grid(*step_x, grid);
+    *step_y = on_grid(*step_y, grid);
+    *origin = ang_vec3_along(ang_vec3_along(on_grid(middle, grid), *step_x, left), *step_y, top);
+    *step_x = ang_vec3_scale(*step_x, sampling->stride);
+    *step_y = ang_vec3_scale(*step_y, sampling->stride);
 }
 
 /* A plane that touches the clip box, or leaves all of it away but a face, must not leave slivers to rounding. */
@@ -281,23 +296,23 @@ bool ang_ray_frame_make(const ang_volume *volume, const ang_scene *scene, ang_ra
     double depth = -ang_vec3_dot(eye, camera->forward);
     if (frame->perspective) depth = fmax(depth, fmax(camera->near_mm, 1e-3 * ang_volume_half_diagonal(volume)));
     double half = frame->perspective ? depth * tan(camera->fov_deg * (M_PI / 360)) : camera->half_height;
-    bool sampled = scene->sampling.stride > 0;
-    double pixel = 2 * half / (sampled ? scene->sampling.height : scene->height);
-    ang_vec3 plane = ang_vec3_along(eye, camera->forward, depth);
-    plane = ang_vec3_along(plane, camera->right, -pixel * (sampled ? scene->sampling.width : scene->width) / 2);
-    frame->origin_mm = ang_vec3_along(plane, camera->up, half);
-    frame->step_x_mm = ang_vec3_scale(camera->right, pixel);
-    frame->step_y_mm = ang_vec3_scale(camera->up, -pixel);
-    if (sampled) take_samples(frame, &scene->sampling);
-    frame->eye_mm = eye;
+    ang_sampling sampling = {1, 0, 0, scene->width, scene->height};
+    if (scene->sampling.stride > 0) sampling = scene->sampling;
+    double pixel = 2 * half / sampling.height;
+    ang_vec3 middle = ang_vec3_along(eye, camera->forward, depth);
     frame->axis_mm = camera->forward;
     frame->near_depth = camera->near_mm - depth;
+    frame->eye_mm = eye;
+    frame->step_x_mm = ang_vec3_scale(camera->right, pixel);
+    frame->step_y_mm = ang_vec3_scale(camera->up, -pixel);
 
-    frame->origin = ang_mat4_direction(&frame->to_index, frame->origin_mm);
+    frame->axis = ang_mat4_direction(&frame->to_index, frame->axis_mm);
+    frame->eye = ang_mat4_direction(&frame->to_index, frame->eye_mm);
     frame->step_x = ang_mat4_direction(&frame->to_index, frame->step_x_mm);
     frame->step_y = ang_mat4_direction(&frame->to_index, frame->step_y_mm);
-    frame->eye = ang_mat4_direction(&frame->to_index, frame->eye_mm);
-    frame->axis = ang_mat4_direction(&frame->to_index, frame->axis_mm);
+    lay_pixels(ang_mat4_direction(&frame->to_index, middle), &sampling, &frame->origin, &frame->step_x, &frame->step_y,
+               &frame->eye);
+    lay_pixels(middle, &sampling, &frame->origin_mm, &frame->step_x_mm, &frame->step_y_mm, &frame->eye_mm);
     return true;
 }
 
