@@ -43,6 +43,8 @@ ANG_SIMD static void build_leaf_rows(void *context, size_t begin, size_t end, in
         for (int z = z0; z <= z1; z++)
             for (int y = y0; y <= y1; y++) {
                 const uint16_t *voxels = volume->data + nx * ((size_t)y + ny * (size_t)z);
+                if (z < z1)
+                    for (size_t x = 0; x < nx; x += 32) __builtin_prefetch(voxels + nx * ny + x, 0, 2);
                 for (size_t x = 0; x < nx; x++) {
                     uint16_t value = voxels[x];
                     low[x] = value < low[x] ? value : low[x];
