@@ -10,7 +10,7 @@ typedef struct build_job {
     const ang_volume *volume;
     ang_octree *octree;
     int level;        /* to build, for parents */
-    ang_minmax *rows; /* scratch: for each worker dims[0] running minima and maxima of a row of leaves */
+    ang_minmax *rows; /* scratch: for each worker row_room() running minima and maxima of a row of leaves */
 } build_job;
 
 static int min_int(int a, int b) { return a < b ? a : b; }
@@ -24,41 +24,77 @@ static void voxel_range(const ang_octree *octree, const ang_volume *volume, int 
     *last = min_int(index * cells + cells + more, volume->dims[axis] - 1);
 }
 
-/* One row of leaves along x: first the extremes over the rows of voxels in y and z, a long loop that the compiler turns
- * into SIMD minima; then over each leaf's stretch of x. */
+/* Voxels of a row and what lies behind it for the last leaf. */
+static size_t row_room(const ang_octree *octree, const ang_volume *volume) {
+    return (size_t)volume->dims[0] + (size_t)octree->leaf[0] + 1;
+}
+
+/* Rows of voxels whose extremes are taken together: those of a leaf of 4 cells in one slice. */
+enum { ROWS = 5 };
+
+/* Takes ROWS rows into the running minima and maxima: a long loop that the compiler turns into SIMD. */
+static inline void take_rows(const uint16_t *const row[ROWS], size_t count, uint16_t *restrict low,
+                             uint16_t *restrict high) {
+    const uint16_t *a = row[0], *b = row[1], *c = row[2], *d = row[3], *e = row[4];
+    for (size_t x = 0; x < count; x++) {
+        uint16_t ab = a[x] < b[x] ? a[x] : b[x], cd = c[x] < d[x] ? c[x] : d[x], el = e[x] < low[x] ? e[x] : low[x];
+        uint16_t AB = a[x] < b[x] ? b[x] : a[x], CD = c[x] < d[x] ? d[x] : c[x], EH = e[x] < high[x] ? high[x] : e[x];
+        ab = ab < cd ? ab : cd;
+        AB = AB < CD ? CD : AB;
+        low[x] = ab < el ? ab : el;
+        high[x] = AB < EH ? EH : AB;
+    }
+}
+
+/* Makes of a row of extremes those of 2, 4, ... voxels from each on, as many as fit into a leaf: how many. Behind the
+ * row's end lies what changes nothing. */
+static inline int widen(uint16_t *low, uint16_t *high, size_t count, int cells) {
+    size_t wide = 1;
+    for (; 2 * wide <= (size_t)cells + 1; wide *= 2)
+        for (size_t x = 0; x < count; x++) {
+            low[x] = low[x + wide] < low[x] ? low[x + wide] : low[x];
+            high[x] = high[x + wide] > high[x] ? high[x + wide] : high[x];
+        }
+    return (int)wide;
+}
+
+/* One row of leaves along x: first the extremes over the rows of voxels in y and z, then over each leaf's stretch of x.
+ */
 ANG_SIMD static void build_leaf_rows(void *context, size_t begin, size_t end, int worker) {
     build_job *job = context;
     const ang_volume *volume = job->volume;
     ang_octree_level *leaves = &job->octree->level[0];
     size_t nx = (size_t)volume->dims[0], ny = (size_t)volume->dims[1];
-    uint16_t *low = (uint16_t *)(job->rows + (size_t)worker * nx), *high = low + nx;
+    size_t room = row_room(job->octree, volume);
+    uint16_t *low = (uint16_t *)(job->rows + (size_t)worker * room), *high = low + room;
     for (size_t row = begin; row < end; row++) {
         int y0, y1, z0, z1;
         voxel_range(job->octree, volume, 1, (int)(row % (size_t)leaves->dims[1]), &y0, &y1);
         voxel_range(job->octree, volume, 2, (int)(row / (size_t)leaves->dims[1]), &z0, &z1);
-        for (size_t x = 0; x < nx; x++) {
+        for (size_t x = 0; x < room; x++) {
             low[x] = UINT16_MAX;
             high[x] = 0;
         }
         for (int z = z0; z <= z1; z++)
-            for (int y = y0; y <= y1; y++) {
-                const uint16_t *voxels = volume->data + nx * ((size_t)y + ny * (size_t)z);
-                if (z < z1)
-                    for (size_t x = 0; x < nx; x += 32) __builtin_prefetch(voxels + nx * ny + x, 0, 2);
-                for (size_t x = 0; x < nx; x++) {
-                    uint16_t value = voxels[x];
-                    low[x] = value < low[x] ? value : low[x];
-                    high[x] = value > high[x] ? value : high[x];
-                }
+            for (int y = y0; y <= y1; y += ROWS) {
+                const uint16_t *rows[ROWS];
+                for (int i = 0; i < ROWS; i++)
+                    rows[i] = volume->data + nx * ((size_t)min_int(y + i, y1) + ny * (size_t)z);
+                /* The next slice's, while this one's are looked at. */
+                for (size_t x = 0; z < z1 && x < (size_t)min_int(ROWS, y1 - y + 1) * nx; x += 32)
+                    __builtin_prefetch(rows[0] + nx * ny + x, 0, 2);
+                take_rows(rows, nx, low, high);
             }
+        int wide = widen(low, high, nx, job->octree->leaf[0]);
         ang_minmax *out = leaves->nodes + row * (size_t)leaves->dims[0];
         for (int i = 0; i < leaves->dims[0]; i++) {
             int x0, x1;
             voxel_range(job->octree, volume, 0, i, &x0, &x1);
             ang_minmax range = {low[x0], high[x0]};
-            for (int x = x0 + 1; x <= x1; x++) {
-                range.min = low[x] < range.min ? low[x] : range.min;
-                range.max = high[x] > range.max ? high[x] : range.max;
+            for (int x = x0 + wide; x <= x1; x += wide) {
+                int at = min_int(x, x1 - wide + 1);
+                range.min = low[at] < range.min ? low[at] : range.min;
+                range.max = high[at] > range.max ? high[at] : range.max;
             }
             out[i] = range;
         }
@@ -127,7 +163,7 @@ ang_octree *ang_octree_build(const ang_volume *volume, const int leaf[3], int ap
     if (!octree) return NULL;
     int workers = ang_thread_count(threads);
     build_job job = {.volume = volume, .octree = octree};
-    job.rows = ang_alloc((size_t)workers * (size_t)volume->dims[0], sizeof *job.rows, "octree", err);
+    job.rows = ang_alloc((size_t)workers * row_room(octree, volume), sizeof *job.rows, "octree", err);
     if (!job.rows) {
         ang_octree_free(octree);
         return NULL;
