@@ -120,6 +120,7 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .method = volume->method ? volume->method->name : NULL,
                                 .size = {volume->size[0], volume->size[1]},
                                 .refined = volume->refined,
+                                .level = ang_volume_level(viewer),
                                 .at_rest = viewer->ready && isinf(rest_work_in(viewer)),
                                 .judged = volume->refined && volume->error.version == volume->version,
                                 .error = volume->error.levels,
@@ -199,6 +200,7 @@ static void rest_work(ang_viewer *viewer) {
     ang_rect rect = viewer->pane[ANG_PANE_VOLUME];
     if (ang_volume_refine_in(viewer) <= 0) {
         ang_volume_update(viewer, (int)rect.width, (int)rect.height, true);
+        if (ang_volume_refine_in(viewer) <= 0) viewer->redraws = 0; /* the next level settles it */
     } else if (ang_picture_error_in(viewer) <= 0) {
         ang_picture_error_find(viewer);
     } else if (ang_thumbnails_wanted(viewer)) {

@@ -73,6 +73,7 @@ typedef struct ang_viewer_state {
     const char *method; /* that draws; NULL: none yet */
     int size[2];        /* of the 3D picture, pixels */
     bool refined;
+    int level;         /* of the fine 3D picture that is shown (core/render/progressive.h); 0: a coarse one is */
     bool at_rest;      /* nothing is left to do until input comes */
     bool judged;       /* its error is known, or that it cannot be: */
     double error;      /* levels; NAN: cannot be known */

@@ -148,7 +148,8 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect) {
         snprintf(text, sizeof text, "%s, %s", volume->method ? volume->method->name : "-",
                  ang_mode_name(document->mode));
         cell(viewer, &x, y, 110, true, text);
-        snprintf(text, sizeof text, "%.0f ms, %s", volume->frame_ms, volume->refined ? "refined" : "coarse");
+        const char *state = volume->refined ? "refined" : ang_volume_level(viewer) > 0 ? "refining" : "coarse";
+        snprintf(text, sizeof text, "%.0f ms, %s", volume->frame_ms, state);
         cell(viewer, &x, y, 110, true, text);
         ang_picture_error_text(viewer, text, sizeof text);
         cell(viewer, &x, y, 132, true, text);

@@ -137,7 +137,7 @@ static void write_corners(ang_viewer *viewer, ang_rect rect) {
         snprintf(text, sizeof text, "C %.0f  W %.0f%s  zoom %.2f", document->window_centre, document->window_width,
                  unit, document->view.zoom);
     ang_pane_corner(viewer, rect, 1, 1, 0, text);
-    ang_pane_corner(viewer, rect, 1, 1, 1, volume->refined ? "" : "coarse");
+    ang_pane_corner(viewer, rect, 1, 1, 1, volume->refined ? "" : ang_volume_level(viewer) > 0 ? "refining" : "coarse");
 }
 
 void ang_volume_pane(ang_viewer *viewer, ang_rect rect) {

@@ -14,7 +14,8 @@
 static const double budget_ms_software = 100, budget_ms_gpu = 33;
 static const double coarse_step = 1; /* smallest spacings; half of that when fine */
 static const double least_scale = 0.25, first_pixels = 30000;
-static const double rest_seconds = 0.15; /* without a change, before the fine picture is begun */
+/* Without a change, before the fine picture is begun: less where it stops within milliseconds. */
+static const double rest_seconds = 0.15, rest_seconds_splitting = 0.05;
 
 ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_document *document, const ang_transfer *transfer,
                            int width, int height) {
@@ -53,6 +54,7 @@ void ang_volume_picture_clear(ang_viewer *viewer) {
     ang_transfer_free(volume->transfer);
     ang_objects_clear(&volume->objects);
     ang_image_clear(&volume->image);
+    ang_progressive_clear(&volume->refining.picture);
     free(volume->rgba);
     ang_painter_forget(viewer->painter, &volume->texture);
     *volume = (ang_volume_picture){.choice = choice, .version = version};
@@ -68,7 +70,7 @@ void ang_volume_set_method(ang_viewer *viewer, int choice) {
     drop_renderer(volume);
     ang_kept_picture_clear(viewer);
     volume->choice = choice;
-    volume->shown = false;
+    volume->shown = volume->refining.begun = false;
 }
 
 /* Where OpenGL is drawn by the processor too, the method that needs none of it is several times as fast. */
@@ -123,23 +125,64 @@ static void adapt(ang_volume_picture *volume, double pixels, double milliseconds
         volume->coarse_pixels = pixels * fmin(0.8 * budget / fmax(milliseconds, 0.1), 1.7);
 }
 
-static bool draw(ang_viewer *viewer, ang_scene *scene, bool fine, ang_image *image, ang_error *err) {
+static bool draw_coarse(ang_viewer *viewer, const ang_scene *scene, ang_image *image, ang_error *err) {
     ang_volume_picture *volume = &viewer->volume;
     ang_render_options options = ang_render_options_default;
     options.threads = viewer->host->threads;
-    if (!fine) options.step_voxels = coarse_step;
-    ang_interruption input;
-    ang_progress progress = ang_interruption_start(&input, viewer->window);
+    options.step_voxels = coarse_step;
     double start = ang_now_ms();
     if (!make_renderer(viewer, scene, err) || !ang_image_create(image, scene->width, scene->height, err)) return false;
     bool first = !volume->warm;
-    bool done = volume->method->render(volume->renderer, scene, &options, image, NULL, fine ? &progress : NULL, err) &&
+    bool done = volume->method->render(volume->renderer, scene, &options, image, NULL, NULL, err) &&
                 show(viewer, image, &volume->rgba, &volume->texture, err);
     if (!done) return false;
     volume->warm = true;
     volume->frame_ms = ang_now_ms() - start;
     /* The first picture makes textures and programs too: that says nothing of the next. */
-    if (!fine && !first) adapt(volume, (double)image->width * image->height, volume->frame_ms);
+    if (!first) adapt(volume, (double)image->width * image->height, volume->frame_ms);
+    return true;
+}
+
+/* The first level that shows about as much as the coarse picture, or more. */
+static int first_level(const ang_volume_picture *volume, int width) {
+    int level = 1;
+    while (level < ANG_PROGRESSIVE_LEVELS && 1.1 * width < volume->image.width * ang_progressive_stride(level)) level++;
+    return level;
+}
+
+static bool begin_refining(ang_volume_picture *volume, const ang_document *document, const ang_scene *scene,
+                           ang_error *err) {
+    ang_refining *fine = &volume->refining;
+    if (fine->begun && fine->size[0] == scene->width && fine->size[1] == scene->height &&
+        ang_document_same_rendering(&fine->document, document))
+        return true;
+    fine->begun = ang_progressive_start(&fine->picture, volume->method, scene, first_level(volume, scene->width), err);
+    fine->document = *document;
+    fine->size[0] = scene->width;
+    fine->size[1] = scene->height;
+    fine->spent_ms = 0;
+    return fine->begun;
+}
+
+/* Draws and shows the next level; after the last `image` becomes the picture. */
+static bool refine_more(ang_viewer *viewer, const ang_document *document, const ang_scene *scene, ang_image *image,
+                        ang_error *err) {
+    ang_volume_picture *volume = &viewer->volume;
+    ang_progressive *picture = &volume->refining.picture;
+    ang_render_options options = ang_render_options_default;
+    options.threads = viewer->host->threads;
+    ang_interruption input;
+    ang_progress progress = ang_interruption_start(&input, viewer->window);
+    double start = ang_now_ms();
+    if (!make_renderer(viewer, scene, err) || !begin_refining(volume, document, scene, err)) return false;
+    bool done = ang_progressive_step(picture, volume->method, volume->renderer, scene, &options, &progress, err) &&
+                show(viewer, &picture->image, &volume->rgba, &volume->texture, err);
+    volume->refining.spent_ms += ang_now_ms() - start;
+    if (!done) return false;
+    volume->frame_ms = volume->refining.spent_ms;
+    if (picture->level < ANG_PROGRESSIVE_LEVELS) return true;
+    *image = picture->image;
+    picture->image = (ang_image){0};
     return true;
 }
 
@@ -173,12 +216,14 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     ang_image image = {0};
     ang_objects objects = {0};
     scene.objects = &objects;
-    bool done = transfer && mark_lengths(viewer, &objects, &err) && draw(viewer, &scene, refine, &image, &err);
-    if (!done && err.code == ANG_INTERRUPTED) {
-        ang_image_clear(&image);
+    bool done =
+        transfer && mark_lengths(viewer, &objects, &err) &&
+        (refine ? refine_more(viewer, document, &scene, &image, &err) : draw_coarse(viewer, &scene, &image, &err));
+    bool interrupted = refine && !done && err.code == ANG_INTERRUPTED;
+    if (interrupted || (done && !image.rgba)) {
         ang_objects_clear(&objects);
         ang_transfer_free(transfer);
-        volume->asked_seconds = ang_now_ms() / 1000;
+        if (interrupted) volume->asked_seconds = ang_now_ms() / 1000;
         return;
     }
     ang_transfer_free(volume->transfer);
@@ -193,6 +238,7 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     volume->size[0] = width;
     volume->size[1] = height;
     volume->shown = true;
+    volume->refining.begun = false;
     volume->version++;
     /* What failed is not tried again until something changes. */
     volume->refined = refine || !done;
@@ -224,10 +270,18 @@ bool ang_volume_thumbnail(ang_viewer *viewer, const ang_document *document, int 
     return done;
 }
 
+int ang_volume_level(const ang_viewer *viewer) {
+    const ang_volume_picture *volume = &viewer->volume;
+    if (!volume->shown || volume->failure[0]) return 0;
+    if (volume->refined) return ANG_PROGRESSIVE_LEVELS;
+    return volume->refining.begun ? volume->refining.picture.level : 0;
+}
+
 double ang_volume_refine_in(const ang_viewer *viewer) {
     const ang_volume_picture *volume = &viewer->volume;
     if (!volume->shown || volume->refined) return INFINITY;
-    return fmax(volume->asked_seconds + rest_seconds - ang_now_ms() / 1000, 0);
+    double rest = volume->method && volume->method->splits ? rest_seconds_splitting : rest_seconds;
+    return fmax(volume->asked_seconds + rest - ang_now_ms() / 1000, 0);
 }
 
 bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm) {

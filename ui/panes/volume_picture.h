@@ -3,10 +3,20 @@
 #define ANG_UI_VOLUME_PICTURE_H
 
 #include "core/render/method.h"
+#include "core/render/progressive.h"
 #include "core/scene/objects.h"
 #include "ui/panes/kept_picture.h"
 
 typedef struct ang_viewer ang_viewer;
+
+/* The fine picture as far as it is drawn, kept where input interrupts it. */
+typedef struct ang_refining {
+    bool begun;
+    ang_document document; /* that it is of, */
+    int size[2];           /* for a pane of this size */
+    ang_progressive picture;
+    double spent_ms;
+} ang_refining;
 
 typedef struct ang_volume_picture {
     const ang_method *method; /* of `renderer` */
@@ -19,7 +29,8 @@ typedef struct ang_volume_picture {
     ang_document document;  /* that `image` shows */
     int size[2];            /* of the pane that `image` was made for */
     bool shown, refined;    /* there is an image; it is as fine as the pane */
-    unsigned version;       /* counts the images */
+    ang_refining refining;
+    unsigned version; /* counts the images */
     ang_picture_error error;
     ang_kept_picture kept;
     bool compared;        /* it shows, or is to show, the preset as it is saved */
@@ -40,9 +51,12 @@ ang_scene ang_volume_scene(const ang_viewer *viewer, const ang_document *documen
  * or it could not be drawn. */
 bool ang_volume_thumbnail(ang_viewer *viewer, const ang_document *document, int width, int height,
                           ang_paint_texture *texture, ang_error *err);
-/* Draws a coarse picture where what it should show has changed; or, with `refine`, the fine one, until input comes. */
+/* Draws a coarse picture where what it should show has changed; or, with `refine`, the next level of the fine one,
+ * until input comes. */
 void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine);
-/* Seconds until the fine picture should be begun; infinite where there is nothing to refine. */
+/* The levels (core/render/progressive.h) of the fine picture that are shown; 0: a coarse one is. */
+int ang_volume_level(const ang_viewer *viewer);
+/* Seconds until the fine picture should be begun, or gone on with; infinite where there is nothing to refine. */
 double ang_volume_refine_in(const ang_viewer *viewer);
 void ang_volume_picture_clear(ang_viewer *viewer);
 void ang_volume_set_method(ang_viewer *viewer, int choice);
