@@ -360,7 +360,7 @@ static void add_live(cJSON *live, const ang_viewer_state *shown) {
     ang_json_add_number(live, "azimuth_deg", shown->document->view.azimuth_deg);
     ang_json_add_number(live, "elevation_deg", shown->document->view.elevation_deg);
     cJSON_AddBoolToObject(live, "refined", shown->refined);
-    cJSON_AddNumberToObject(live, "level", shown->level);
+    cJSON_AddNumberToObject(live, "levels_shown", shown->levels_shown);
     cJSON_AddBoolToObject(live, "at_rest", shown->at_rest);
     if (shown->judged) ang_json_add_number(live, "error_levels", shown->error);
     ang_json_add_number(live, "latency_ms", shown->latency_ms);

@@ -120,7 +120,7 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .method = volume->method ? volume->method->name : NULL,
                                 .size = {volume->size[0], volume->size[1]},
                                 .refined = volume->refined,
-                                .level = ang_volume_level(viewer),
+                                .levels_shown = volume->refining.levels_shown,
                                 .at_rest = viewer->ready && isinf(rest_work_in(viewer)),
                                 .judged = volume->refined && volume->error.version == volume->version,
                                 .error = volume->error.levels,

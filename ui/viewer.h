@@ -73,7 +73,7 @@ typedef struct ang_viewer_state {
     const char *method; /* that draws; NULL: none yet */
     int size[2];        /* of the 3D picture, pixels */
     bool refined;
-    int level;         /* of the fine 3D picture that is shown (core/render/progressive.h); 0: a coarse one is */
+    int levels_shown;  /* of fine 3D pictures, before they were refined (core/render/progressive.h), so far */
     bool at_rest;      /* nothing is left to do until input comes */
     bool judged;       /* its error is known, or that it cannot be: */
     double error;      /* levels; NAN: cannot be known */

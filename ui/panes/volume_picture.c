@@ -180,7 +180,10 @@ static bool refine_more(ang_viewer *viewer, const ang_document *document, const 
     volume->refining.spent_ms += ang_now_ms() - start;
     if (!done) return false;
     volume->frame_ms = volume->refining.spent_ms;
-    if (picture->level < ANG_PROGRESSIVE_LEVELS) return true;
+    if (picture->level < ANG_PROGRESSIVE_LEVELS) {
+        volume->refining.levels_shown++;
+        return true;
+    }
     *image = picture->image;
     picture->image = (ang_image){0};
     return true;

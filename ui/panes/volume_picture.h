@@ -16,6 +16,7 @@ typedef struct ang_refining {
     int size[2];           /* for a pane of this size */
     ang_progressive picture;
     double spent_ms;
+    int levels_shown; /* before last ones; of all pictures so far */
 } ang_refining;
 
 typedef struct ang_volume_picture {
