@@ -177,6 +177,9 @@ static void a_preset_is_saved_by_name(void **state) {
     nap(200);
     hands("key --delay 60 x BackSpace type --delay 60 'my head'");
     expect_text("saving_preset.name", "my head");
+    /* Tab goes on to what it is for and saves nothing. */
+    hands("key --delay 100 Tab type --delay 60 'all that is red'");
+    expect_text("saving_preset.name", "my head");
     hands("key --delay 60 Return");
     expect_text("saved", "my head.json");
     expect_text("preset.name", "my head");
@@ -185,6 +188,7 @@ static void a_preset_is_saved_by_name(void **state) {
     ang_preset *saved = ang_preset_load(FOLDER "/config/angioscope/presets/my head.json", NULL);
     assert_non_null(saved);
     assert_string_equal(saved->name, "my head");
+    assert_string_equal(saved->description, "all that is red");
     assert_close(saved->transfer->points[1].opacity, opacity, 0);
     ang_preset_free(saved);
     /* It is in the list at once: the one before and back. */

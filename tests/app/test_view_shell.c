@@ -206,6 +206,13 @@ static void the_panel_takes_keys_from_tab_to_esc(void **state) {
     expect_number("window.width", 2000, 0);
     hands("key Up");
     expect_number("axial.slice", slice, 0); /* the bar has been left */
+    /* From menu to menu: File, Edit, Curve, Tools, View and back; the second of the tools. */
+    hands("key --delay 400 F10 Down Right Right Right Right Left Down Return");
+    expect_text("tool", "crosshair");
+    hands("key w key Down");
+    expect_number("axial.slice", slice - 1, 0);
+    hands("key Up");
+    expect_number("axial.slice", slice, 0);
 }
 
 static void what_was_chosen_is_there_again(void **state) {

@@ -65,6 +65,9 @@ static void escape(ang_viewer *viewer) {
     while (!ends[i](viewer)) i++;
 }
 
+/* That it takes from one menu to the next. */
+enum { frames_to_menu = 6 };
+
 enum { C = ANG_MOD_CONTROL, S = ANG_MOD_SHIFT };
 
 /* What other programs have taught hands, and what other keyboards print on the same key. */
@@ -129,8 +132,10 @@ void ang_keys(ang_viewer *viewer) {
             escape(viewer);
             continue;
         }
-        bool taken = viewer->typing || viewer->palette.open || viewer->files.open || ang_gui_popup_open(viewer->gui) ||
-                     (is_widgets(key) && ang_gui_navigating(viewer->gui));
+        bool menu = ang_gui_popup_open(viewer->gui);
+        if (menu) viewer->redraws = frames_to_menu;
+        bool taken = viewer->typing || viewer->palette.open || viewer->files.open || viewer->preset_dialog.open ||
+                     menu || (is_widgets(key) && ang_gui_navigating(viewer->gui));
         unsigned modifiers = input->press[i].modifiers;
         if (key == ANG_KEY_NONE || taken) continue;
         if (!ang_load_report_key(viewer, key, modifiers) && !ang_series_browser_key(viewer, key, modifiers) &&

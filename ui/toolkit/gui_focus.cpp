@@ -2,6 +2,9 @@
  * the program's. Dear ImGui moves among widgets by arrows; Tab is done here, since its own passes over buttons. */
 #include "ui/toolkit/gui_private.hpp"
 
+/* From Left or Right in a menu until the one beside it is open. */
+enum { menu_change = 4 };
+
 static bool takes_keys(const ImGuiWindow *window) { return window && !(window->Flags & ImGuiWindowFlags_NoNavInputs); }
 
 static bool in_menu_bar() {
@@ -18,6 +21,9 @@ static void give(const ang_gui_stop &stop) {
     ImRect place = stop.rect;
     place.Translate(stop.window->DC.CursorStartPos);
     ImGui::ScrollToBringRectIntoView(stop.window, place);
+    if (!stop.of_text) return;
+    ImGui::ActivateItem(stop.id);
+    g.NavInputSource = ImGuiInputSource_Keyboard;
 }
 
 /* To the next or last widget of the dialog in front, else of all areas. */
@@ -39,14 +45,43 @@ static void step(ang_gui *gui, int by) {
 static void leave_what_has_gone(ang_gui *gui) {
     ImGuiContext &g = *ImGui::GetCurrentContext();
     bool popup = ang_gui_popup_open(gui);
-    /* From one menu to the next there is a frame without any. */
-    if (popup) gui->bar_frames = 2;
+    /* From one menu to the next there are frames without any. */
+    if (popup) gui->bar_frames = menu_change;
     if (gui->bar && gui->bar_frames > 0 && !popup && --gui->bar_frames == 0) gui->bar = false;
     bool gone = g.NavWindow && !g.NavWindow->Active, shown = !g.NavDisableHighlight;
     if (!gone && !(in_menu_bar() && !gui->bar && !popup)) return;
     ang_gui_leave_widgets(gui);
     for (const ang_gui_stop &stop : gui->stops)
         if (gone && shown && stop.id == gui->before) give(stop);
+}
+
+/* Left and Right in a menu open the one beside it; Dear ImGui goes to its name alone, a frame after the key. */
+static void change_menus(ang_gui *gui) {
+    const ang_input &input = gui->input;
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    bool in_menu = g.NavWindow && (g.NavWindow->Flags & ImGuiWindowFlags_ChildMenu);
+    for (int i = 0; i < input.press_count && in_menu; i++)
+        if (input.press[i].key == ANG_KEY_LEFT || input.press[i].key == ANG_KEY_RIGHT) {
+            gui->menu_waits = menu_change;
+            gui->bar = true;
+        }
+    if (gui->menu_waits > 0 && --gui->menu_waits < menu_change - 2 && in_menu_bar()) {
+        ImGui::GetIO().KeysDown[ANG_KEY_DOWN] = true;
+        gui->menu_waits = 0;
+    }
+}
+
+/* The first key that means a widget shows which one of a dialog has the keyboard. */
+static void show_in_dialog(ang_gui *gui) {
+    ImGuiContext &g = *ImGui::GetCurrentContext();
+    const ang_input &input = gui->input;
+    if (!gui->dialog || g.NavWindow != gui->dialog || g.NavId == 0 || g.IO.WantTextInput) return;
+    for (int i = 0; i < input.press_count; i++)
+        if (input.press[i].key == ANG_KEY_ENTER || input.press[i].key == ANG_KEY_SPACE ||
+            (input.press[i].key >= ANG_KEY_LEFT && input.press[i].key <= ANG_KEY_END)) {
+            g.NavDisableHighlight = false;
+            gui->navigating = true;
+        }
 }
 
 /* Tab. What is being typed is taken first, as by Enter. */
@@ -97,9 +132,11 @@ void ang_gui_take_keys(ang_gui *gui) {
     bool pointing = input.x != gui->last_x || input.y != gui->last_y || input.button[0] || input.button[1];
     if (input.press_count > 0 || pointing) gui->by_keys = input.press_count > 0;
     if (input.button[0] || input.button[1]) gui->bar = false;
+    show_in_dialog(gui);
     hold_back(gui); /* before Tab, which may ask for Enter */
     press_by_enter(gui);
     take_tabs(gui);
+    change_menus(gui);
     bool shown = takes_keys(g.NavWindow) && !g.NavDisableHighlight;
     gui->navigating = ang_gui_popup_open(gui) || gui->bar || shown;
     if (!gui->dialog) gui->before = shown ? g.NavId : 0;
@@ -110,14 +147,14 @@ void ang_gui_take_keys(ang_gui *gui) {
     gui->arrows_of = 0;
 }
 
-void ang_gui_note_stop(ang_gui *gui) {
+void ang_gui_note_stop(ang_gui *gui, bool of_text) {
     ImGuiContext &g = *ImGui::GetCurrentContext();
     ImGuiWindow *window = g.CurrentWindow;
     if (!takes_keys(window) || (window->Flags & ImGuiWindowFlags_Popup) ||
         (g.LastItemData.InFlags & ImGuiItemFlags_Disabled))
         return;
     gui->stops.push_back(ang_gui_stop{g.LastItemData.ID, window->DC.NavFocusScopeIdCurrent, window,
-                                      ImGui::WindowRectAbsToRel(window, g.LastItemData.NavRect)});
+                                      ImGui::WindowRectAbsToRel(window, g.LastItemData.NavRect), of_text});
 }
 
 void ang_gui_dialog_opened(ang_gui *gui) {

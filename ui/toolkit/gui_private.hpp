@@ -19,7 +19,8 @@ extern "C" {
 struct ang_gui_stop {
     ImGuiID id, scope;
     ImGuiWindow *window;
-    ImRect rect; /* from where the window's contents start */
+    ImRect rect;  /* from where the window's contents start */
+    bool of_text; /* a text field, which types as soon as Tab comes to it */
 };
 
 struct ang_gui {
@@ -45,6 +46,7 @@ struct ang_gui {
     bool navigating;                 /* widgets have the keyboard */
     bool bar, menus_wanted;          /* the bar of menus has it; it is to have it */
     int bar_frames;                  /* without a menu, before the bar is left */
+    int menu_waits;                  /* frames in which the menu beside the one that was left may open */
     bool pressing;                   /* Enter went down on a widget and is still held */
     bool by_keys;                    /* the last that was done was done by a key */
     int waiting_step;                /* of Tab, for the next frame; 0: none */
@@ -68,7 +70,7 @@ extern const ImGuiWindowFlags ang_gui_fixed;
 /* Before a frame: which keys Dear ImGui gets. */
 void ang_gui_take_keys(ang_gui *gui);
 /* After a widget: Tab goes to it. */
-void ang_gui_note_stop(ang_gui *gui);
+void ang_gui_note_stop(ang_gui *gui, bool of_text = false);
 /* After a dialog's begin. */
 void ang_gui_dialog_opened(ang_gui *gui);
 /* After the first menu's label. */

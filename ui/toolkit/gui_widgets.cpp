@@ -189,9 +189,10 @@ bool ang_gui_text_field(ang_gui *gui, const char *name, char *text, size_t size,
     /* What gets the keyboard by itself is chosen as a whole, to be typed over. */
     int chosen = ImGui::IsMouseDown(ImGuiMouseButton_Left) ? 0 : ImGuiInputTextFlags_AutoSelectAll;
     bool entered = ImGui::InputText(name, text, size, ImGuiInputTextFlags_EnterReturnsTrue | chosen);
+    entered = entered && gui->waiting_step == 0; /* not the Enter by which Tab leaves it */
     /* What was entered may be refused or asked about: another Enter answers. */
     if (entered) ImGui::SetKeyboardFocusHere(-1);
-    ang_gui_note_stop(gui);
+    ang_gui_note_stop(gui, true);
     return entered;
 }
 
