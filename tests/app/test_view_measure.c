@@ -53,6 +53,23 @@ static void to_axial_slice(int number) {
     expect_number("axial.slice", number, 0);
 }
 
+/* Without a mouse: from the crosshair to where keys have moved it. */
+static void keys_measure_from_the_crosshair(void **state) {
+    (void)state;
+    need_window();
+    expect_text("phase", "ready");
+    to_axial_slice(24);
+    hands("key --delay 60 m Insert shift+Right shift+Right shift+Right shift+Right shift+Right shift+Down shift+Down");
+    nap(100);
+    expect_number("measures.count", 0, 0);
+    hands("key Insert");
+    expect_number("measures.count", 1, 0);
+    expect_number("measures.values.0.value", hypot(5 * voxel[0], 2 * voxel[1]), 1e-9);
+    hands("key --delay 60 Delete Home w");
+    expect_number("measures.count", 0, 0);
+    expect_text("tool", "window");
+}
+
 /* The vault of the skull is inside an ellipsoid about (0, 18, 32) mm with half axes of 66 mm across and upwards, so
  * that it is 132 mm wide there. The slice is at 33 mm. */
 static void the_skull_is_as_wide_as_it_was_made(void **state) {
@@ -415,6 +432,7 @@ static void measures_are_restored_with_the_session(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(keys_measure_from_the_crosshair),
         cmocka_unit_test(the_skull_is_as_wide_as_it_was_made),
         cmocka_unit_test(a_length_is_edited),
         cmocka_unit_test(clicks_make_an_angle),

@@ -172,6 +172,8 @@ static const ang_action actions[] = {
     {"Tools", "Clip plane on", NULL, 'K', A, ang_clip_toggle, 0, false, is_ready, ang_clip_is_on},
     {"Tools", "Measure", "drag or click in a slice; again: length, angle, ellipse, rectangle", 'M', 0,
      ang_measuring_next, ANG_TOOL_MEASURE, false, is_ready, is_tool},
+    {"Tools", "Measure: point at the crosshair", "as a click there; Shift and arrows move the crosshair",
+     ANG_KEY_INSERT, 0, ang_measuring_place, 0, false, ang_measuring_by_keys, NULL},
     {"Tools", "Delete the chosen measure", NULL, ANG_KEY_DELETE, 0, ang_measures_delete_chosen, 0, true,
      ang_measures_chosen, NULL},
     {"Tools", "Delete all measures", NULL, 0, 0, ang_measures_clear, 0, false, ang_measures_any, NULL},

@@ -114,6 +114,7 @@ static void begin(ang_viewer *viewer, ang_pane pane, ang_vec3 at, const ang_slic
     measuring->placed = 1;
     measuring->pane = (int)pane;
     measuring->began = true;
+    measuring->by_keys = false;
     measuring->chosen = -1;
 }
 
@@ -148,7 +149,7 @@ static void place(ang_viewer *viewer, ang_vec3 at) {
 static void press(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame) {
     ang_measuring *measuring = &viewer->measuring;
     measuring->holding = true;
-    measuring->began = false;
+    measuring->began = measuring->by_keys = false;
     measuring->grabbed = ANG_MARK_NOTHING;
     if (measuring->placed > 0 && measuring->pane == (int)pane) return;
     int index, found = ang_measuring_under(viewer, pane, canvas, frame, &index);
@@ -164,6 +165,23 @@ static void press(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, c
     ang_slice_locate(frame, ang_measurement_middle(&viewer->document.measures.item[index]), &x, &y);
     measuring->label_mm[0] = ((label->left + label->right) / 2 - x) * frame->mm_per_pixel;
     measuring->label_mm[1] = ((label->top + label->bottom) / 2 - y) * frame->mm_per_pixel;
+}
+
+bool ang_measuring_by_keys(const ang_viewer *viewer) {
+    return viewer->ready && viewer->tool == ANG_TOOL_MEASURE && viewer->focus.pane != ANG_PANE_VOLUME;
+}
+
+void ang_measuring_place(ang_viewer *viewer, int argument) {
+    (void)argument;
+    ang_measuring *measuring = &viewer->measuring;
+    ang_pane pane = (ang_pane)viewer->focus.pane;
+    if (measuring->placed > 0 && measuring->pane == (int)pane) {
+        place(viewer, viewer->crosshair);
+        return;
+    }
+    ang_slice_frame frame = ang_slice_frame_of(viewer, (ang_orientation)pane, viewer->pane[pane]);
+    begin(viewer, pane, viewer->crosshair, &frame.axes);
+    measuring->by_keys = true;
 }
 
 /* What is grabbed follows the pointer, from where it was when the button went down. */
@@ -216,7 +234,7 @@ void ang_measuring_slice(ang_viewer *viewer, ang_pane pane, const ang_canvas *ca
         measuring->grabbed = ANG_MARK_NOTHING;
     }
     for (int i = measuring->placed; measuring->placed > 0 && making && i < ANG_MEASURE_POINTS; i++)
-        measuring->pending.point[i] = pointed(canvas, frame);
+        measuring->pending.point[i] = measuring->by_keys ? viewer->crosshair : pointed(canvas, frame);
 }
 
 void ang_measuring_volume(ang_viewer *viewer, const ang_canvas *canvas) {

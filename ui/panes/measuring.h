@@ -15,6 +15,7 @@ typedef struct ang_measuring {
     int pane;                /* ang_pane in which it is made */
     bool holding;            /* a press of this tool is held */
     bool began;              /* it began what is being made */
+    bool by_keys;            /* the next place follows the crosshair, not the pointer */
     int chosen;              /* of the document's; -1 or beyond the last: none */
     int grabbed;             /* of `chosen`, what a drag moves: a handle or ANG_MARK_* */
     double label_mm[2];      /* where the label was when it was grabbed, as in ang_measurement */
@@ -31,6 +32,9 @@ void ang_measuring_start(ang_viewer *viewer);
 void ang_measuring_take(ang_viewer *viewer, ang_measure_kind kind);
 /* Gives up what is half made; whether there was any. */
 bool ang_measuring_cancel(ang_viewer *viewer);
+/* By keys, in the slice pane that has them: begins a measure at the crosshair, or fixes its next place there. */
+bool ang_measuring_by_keys(const ang_viewer *viewer);
+void ang_measuring_place(ang_viewer *viewer, int argument);
 /* What the hands do on a pane; only the tool's. */
 void ang_measuring_slice(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame);
 void ang_measuring_volume(ang_viewer *viewer, const ang_canvas *canvas);
