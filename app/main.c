@@ -1,7 +1,9 @@
 #include "app/verbs.h"
 
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -62,10 +64,20 @@ static int run_verb(const verb_entry *verb, int argc, char **argv) {
     return finish(code);
 }
 
+static bool has_display(void) {
+    const char *names[] = {"DISPLAY", "WAYLAND_DISPLAY"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const char *value = getenv(names[i]);
+        if (value && value[0]) return true;
+    }
+    return false;
+}
+
 int main(int argc, char **argv) {
     /* A closed pipe is an output that cannot be written, not a reason to die. */
     signal(SIGPIPE, SIG_IGN);
     if (argc < 2) {
+        if (has_display()) return run_verb(&verbs[0], argc, argv);
         print_usage(stderr);
         return ANG_USAGE;
     }
@@ -81,6 +93,11 @@ int main(int argc, char **argv) {
         if (strcmp(argv[1], verbs[i].name) == 0) return run_verb(&verbs[i], argc - 1, argv + 1);
     /* What is there to be opened needs no verb. */
     if (access(argv[1], F_OK) == 0) return run_verb(&verbs[0], argc, argv);
-    fprintf(stderr, "angioscope: there is no verb '%s'; 'angioscope --help' lists them\n", argv[1]);
+    if (strchr(argv[1], '/')) {
+        fprintf(stderr, "angioscope: %s: there is no such file or folder\n", argv[1]);
+        return ANG_INPUT;
+    }
+    fprintf(stderr, "angioscope: there is neither a verb nor a file '%s'; 'angioscope --help' lists the verbs\n",
+            argv[1]);
     return ANG_USAGE;
 }

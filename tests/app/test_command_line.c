@@ -47,8 +47,14 @@ static void gradients_that_cannot_be_had_are_said(void **state) {
 
 static void usage_errors_give_two(void **state) {
     (void)state;
+    unsetenv("DISPLAY"); /* else a window opens */
+    unsetenv("WAYLAND_DISPLAY");
     expect(2, "2>&1");
+    assert_non_null(strstr(output, "angioscope VERB --help"));
     expect(2, "fly 2>&1");
+    assert_non_null(strstr(output, "'fly'"));
+    expect(3, TMP "/no-such-folder 2>&1");
+    assert_non_null(strstr(output, "no such file or folder"));
     expect(2, "render 2>&1");
     expect(2, "render " PHANTOM " 2>&1");
     expect(2, "render " PHANTOM " -o " TMP "/x.png --step 0 2>&1");
