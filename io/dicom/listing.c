@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 /* What a first look at a slice's pixels found: in a series of many volumes each slice is compared with many. */
 typedef struct digest {
@@ -123,9 +124,10 @@ static bool fail_empty(const ang_dicom_folder *folder, const char *path, ang_err
     if (folder->broken > 1)
         return ang_fail(err, ANG_INPUT, "none of %zu DICOM files can be read; the first: %s", folder->broken,
                         folder->first_error);
-    if (folder->count == 1)
+    if (folder->count == 1 && strncasecmp(folder->labels[0], "DICOMDIR", 8) == 0)
         return ang_fail(err, ANG_INPUT, "%s: holds no DICOM image; a DICOMDIR is an index: give its folder",
                         folder->labels[0]);
+    if (folder->count == 1) return ang_fail(err, ANG_INPUT, "%s: holds no DICOM image", path);
     return ang_fail(err, ANG_INPUT, "%s: no DICOM image among its %zu files", path, folder->count);
 }
 
