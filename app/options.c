@@ -62,7 +62,7 @@ static const option_spec table[] = {
                 "distance of samples along a ray"),
     TEXT_OPTION("size", DRAWS, size, "WxH", "512x512", "picture size in pixels"),
     TEXT_OPTION("size", ANG_VERB_VIEW, size, "WxH", NULL, "window size in pixels; default: as suits the screen"),
-    TEXT_OPTION("pictures", ANG_VERB_VIEW, pictures, "DIR", ".", "folder that saved pictures and presets go to"),
+    TEXT_OPTION("pictures", ANG_VERB_VIEW, pictures, "DIR", ".", "folder that saved pictures and states go to"),
     TEXT_OPTION(
         "state", DRAWS, state, "FILE", NULL,
         "draw what a saved state of the viewer shows in 3D, or a picture of this program (.png, .exr) again; what "

@@ -16,6 +16,7 @@
 #include "io/state.h"
 #include "ui/viewer.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,10 +66,13 @@ static ang_preset *preset_for(void *context, const ang_study *study, ang_error *
 /* The path of a file that is not there yet. */
 static bool new_file(const view *view, const char *what, const char *ending, char *path, size_t size, ang_error *err) {
     const char *folder = view->options->pictures;
+    char whole[PATH_MAX];
     if (!ang_folder_make(folder, err)) return false;
+    if (realpath(folder, whole)) folder = whole;
     for (int i = 1; i <= MOST_FILES; i++) {
         char name[4096];
-        int used = snprintf(name, sizeof name, "%s/angioscope-%s-%04d.%s", folder, what, i, ending);
+        int used = snprintf(name, sizeof name, "%s/angioscope-%s-%04d.%s", strcmp(folder, "/") == 0 ? "" : folder, what,
+                            i, ending);
         if (used < 0 || (size_t)used >= size) return ang_fail(err, ANG_OUTPUT, "%s: is too long a name", folder);
         if (access(name, F_OK) == 0) continue;
         memcpy(path, name, (size_t)used + 1);

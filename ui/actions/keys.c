@@ -84,16 +84,21 @@ static const struct {
                {'=', S, '+', 0},
                {'+', S, '+', 0}};
 
-/* Of those that share a key the first that can be done now; false where there is none. */
+/* Of those that share a key the first that can be done now; false where there is none. What needs a study is told where
+ * there is none. */
 static bool run_action(ang_viewer *viewer, int key, unsigned modifiers) {
     int count;
+    bool known = false;
     const ang_action *actions = ang_actions(&count);
     for (int i = 0; i < count; i++) {
         const ang_action *action = &actions[i];
-        if (action->key != key || action->modifiers != modifiers || !ang_action_enabled(viewer, action)) continue;
+        if (action->key != key || action->modifiers != modifiers) continue;
+        known = true;
+        if (!ang_action_enabled(viewer, action)) continue;
         action->run(viewer, action->argument);
         return true;
     }
+    if (known && !viewer->ready) ang_viewer_say(viewer, false, "Nothing is open yet: Ctrl+O opens a folder or a file");
     return false;
 }
 

@@ -116,6 +116,18 @@ static void write_place(ang_vec3 mm, char *text, size_t size) {
              fabs(at[2]));
 }
 
+/* At the right; where there is too little room it covers what stands there. */
+static void write_message(ang_viewer *viewer, ang_rect rect, double y) {
+    ang_gui *gui = viewer->gui;
+    double edge = ang_gui_px(gui, 12), room = rect.width - 2 * edge, right = rect.x + rect.width - edge;
+    char text[sizeof viewer->message];
+    const char *fitted = fit(gui, viewer->message, room, text, sizeof text);
+    double left = right - ang_gui_text_width(gui, fitted, true);
+    ang_gui_fill(gui, (ang_rect){left - edge, rect.y, right + edge - (left - edge), rect.height}, viewer->theme->panel);
+    ang_gui_write(gui, left, y, 0, true, false, viewer->message_bad ? viewer->theme->bad : viewer->theme->accent,
+                  fitted);
+}
+
 void ang_status_line(ang_viewer *viewer, ang_rect rect) {
     ang_gui *gui = viewer->gui;
     ang_gui_area_begin(gui, "status", rect, true);
@@ -154,13 +166,6 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect) {
         ang_picture_error_text(viewer, text, sizeof text);
         cell(viewer, &x, y, 132, true, text);
     }
-    if (viewer->message[0] && !viewer->shot.posed) { /* it may name a folder */
-        double right = rect.x + rect.width - ang_gui_px(gui, 12);
-        ang_ink ink = viewer->message_bad ? viewer->theme->bad : viewer->theme->accent;
-        ang_gui_clip(gui, (ang_rect){x, rect.y, fmax(right - x, 0), rect.height});
-        double width = ang_gui_text_width(gui, viewer->message, true);
-        ang_gui_write(gui, fmax(right - width, x), y, 0, true, false, ink, viewer->message);
-        ang_gui_unclip(gui);
-    }
+    if (viewer->message[0] && !viewer->shot.posed) write_message(viewer, rect, y); /* it may name a folder */
     ang_gui_area_end(gui);
 }
