@@ -169,7 +169,9 @@ static void loading_is_cancelled_or_replaced(void **state) {
     drop(FOLDER "/nothing.dcm");
     expect_text("phase", "failed");
     expect_number("axial.slices", 20, 0);
-    hands("key Escape");
+    hands("key Return"); /* its first button */
+    expect_text("open", "files");
+    hands("key --delay 150 Escape Escape");
     expect_text("phase", "ready");
 }
 

@@ -9,6 +9,15 @@
 
 enum { WIDTH = 640, HEIGHT = 360, ROW = 24, RECENT = 176 }; /* of the lists, at scale 1 */
 
+/* Of the lists in pixels, less where the window is small. */
+static double list_width(const ang_viewer *viewer) {
+    return fmin(ang_gui_px(viewer->gui, WIDTH), viewer->input.width - ang_gui_px(viewer->gui, 84));
+}
+static double list_height(const ang_viewer *viewer) {
+    double least = ang_gui_px(viewer->gui, 3 * ROW), rest = ang_gui_px(viewer->gui, 208);
+    return fmax(fmin(ang_gui_px(viewer->gui, HEIGHT), viewer->input.height - rest), least);
+}
+
 void ang_file_browser_clear(ang_file_browser *files) {
     ang_file_list_clear(&files->list);
     free(files->shown);
@@ -250,11 +259,12 @@ static void draw_recent(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     const ang_recent *recent = &viewer->recent;
     int chosen = -1;
-    ang_gui_scroll_begin(gui, "recent", ang_gui_px(gui, RECENT), ang_gui_px(gui, HEIGHT));
+    ang_gui_scroll_begin(gui, "recent", ang_gui_px(gui, RECENT), list_height(viewer));
     ang_gui_heading(gui, "RECENT");
     for (int i = 0; i < recent->count; i++) {
-        char label[300], help[ANG_RECENT_SIZE + 16];
-        snprintf(label, sizeof label, "%.280s##%d", recent->path[i] + ang_path_name_at(recent->path[i]), i);
+        char label[320], help[ANG_RECENT_SIZE + 16];
+        const char *name = recent->path[i] + ang_path_name_at(recent->path[i]);
+        snprintf(label, sizeof label, "%d  %.280s##%d", i + 1, name, i);
         if (ang_gui_selectable(gui, label, false)) chosen = i;
         if (i < 9)
             snprintf(help, sizeof help, "%s (Ctrl+%d)", recent->path[i], i + 1);
@@ -270,13 +280,13 @@ static int draw_list(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     ang_file_browser *files = &viewer->files;
     ang_rows_part part;
-    double width = ang_gui_px(gui, WIDTH);
+    double width = list_width(viewer);
     if (viewer->recent.count > 0) {
         draw_recent(viewer);
         ang_gui_same_line(gui);
         width -= ang_gui_px(gui, RECENT + 8);
     }
-    ang_gui_rows_begin(gui, "files", width, ang_gui_px(gui, HEIGHT), ang_gui_px(gui, ROW), files->shown_count,
+    ang_gui_rows_begin(gui, "files", width, list_height(viewer), ang_gui_px(gui, ROW), files->shown_count,
                        files->follow ? files->chosen : -1, &part);
     files->follow = false;
     for (int row = part.first; row < part.end && (size_t)row < files->shown_count; row++) draw_row(viewer, row);
@@ -298,7 +308,7 @@ static void draw_path(ang_viewer *viewer) {
     bool up = false, home = false;
     files->was_folder = files->path[0] && !files->path[ang_path_name_at(files->path)];
     bool typed = ang_gui_path_field(gui, "##path", files->path, sizeof files->path,
-                                    ang_gui_px(gui, WIDTH) - 2 * (button + gap), files->anew);
+                                    list_width(viewer) - 2 * (button + gap), files->anew);
     files->anew = false;
     ang_gui_same_line(gui);
     up = ang_gui_button(gui, "Up", button, strcmp(files->listed, "/") != 0);
@@ -343,8 +353,8 @@ void ang_file_browser_show(ang_viewer *viewer) {
     int page = draw_list(viewer);
     ang_gui_gap(gui, ang_gui_px(gui, 2));
     draw_foot(viewer);
-    ang_gui_text_dim(
-        gui, "Type a name or a path; Enter opens, Ctrl+Enter a whole folder, Backspace goes up, Tab completes.");
+    ang_gui_text_dim(gui, "Enter opens, Ctrl+Enter a folder with all below it, Backspace goes up, Tab completes;");
+    ang_gui_text_dim(gui, "Ctrl+1 ... 9 open what is recent, Ctrl+F lists all files, Ctrl+H hidden ones.");
     ang_gui_message_end(gui);
     if (files->open) handle_keys(viewer, page);
 }

@@ -7,91 +7,106 @@
 
 /* What is no action but done by hand. */
 static const struct {
-    const char *hand, *does;
+    const char *heading, *hand, *does;
 } hands[] = {
-    {"Left drag", "slice: the tool (measure: or clicks); 3D: turn"},
-    {"Click", "crosshair here; 3D: to what shows first"},
-    {"Middle drag, Space + left drag", "pan"},
-    {"Right drag, Ctrl + wheel", "zoom about the pointer"},
-    {"Wheel", "slice: scroll; 3D: zoom"},
-    {"Shift + drag in 3D", "up, down: shift the preset; across: stretch"},
-    {"Ctrl + Shift + drag in 3D", "up, down: overall opacity"},
-    {"Drag a handle of the crosshair", "turn the other two planes"},
-    {"Double click", "the pane large, and back"},
-    {"Drag of a gap between panes", "their sizes; double click: equal"},
-    {"Shift in a drag of numbers", "ten times finer"},
-    {"D held down", "the preset as it is saved"},
-    {"Esc", "cancel a drag, loading, a window"},
-    {"1 ... 9", "windows; in the 3D pane: presets"},
-    {"Shift + arrows", "slice: the crosshair; 3D: turn"},
-    {"Ctrl + arrows", "pan"},
-    {"Ctrl + Shift + arrows", "the gaps between the panes"},
-    {"Tab, Shift + Tab", "to the panel's controls; Esc: to the panes"},
-    {"Arrows, Enter, Space", "there: move, type, press or change"},
-    {"Ctrl + Tab", "as F6: the next pane"},
-    {"Ctrl + Shift + P", "as Ctrl + K: find a command"},
+    {"Mouse", "Left drag", "slice: the tool (measure: or clicks); 3D: turn"},
+    {"Mouse", "Click", "crosshair here; 3D: to what shows first"},
+    {"Mouse", "Middle drag, Space + left drag", "pan"},
+    {"Mouse", "Right drag, Ctrl + wheel", "zoom about the pointer"},
+    {"Mouse", "Wheel", "slice: scroll; 3D: zoom"},
+    {"Mouse", "Shift + drag in 3D", "up, down: shift the preset; across: stretch"},
+    {"Mouse", "Ctrl + Shift + drag in 3D", "up, down: overall opacity"},
+    {"Mouse", "Drag a handle of the crosshair", "turn the other two planes"},
+    {"Mouse", "Double click", "the pane large, and back"},
+    {"Mouse", "Drag of a gap between panes", "their sizes; double click: equal"},
+    {"Mouse", "Shift in a drag of numbers", "ten times finer"},
+    {"More keys", "D held down", "the preset as it is saved"},
+    {"More keys", "Esc", "cancel a drag, loading, a window"},
+    {"More keys", "1 ... 9", "windows; in the 3D pane: presets"},
+    {"More keys", "Shift + arrows", "slice: the crosshair; 3D: turn"},
+    {"More keys", "Ctrl + arrows", "pan"},
+    {"More keys", "Ctrl + Shift + arrows", "the gaps between the panes"},
+    {"More keys", "Tab, Shift + Tab", "to the panel's controls; Esc: to the panes"},
+    {"More keys", "Arrows, Enter, Space", "there: move, type, press or change"},
+    {"More keys", "Ctrl + Tab", "as F6: the next pane"},
+    {"More keys", "Ctrl + Shift + P", "as Ctrl + K: find a command"},
 };
 
-static void help_cells(ang_gui *gui, const char *left, const char *right) {
-    ang_gui_table_next(gui);
-    ang_gui_text(gui, "%s", left);
-    ang_gui_table_next(gui);
-    ang_gui_text_dim(gui, "%s", right);
-}
-
-/* A line of the help: a menu's name, an action, or, of neither, nothing. */
+/* A line of the help: the name of a group, something and what it does, or nothing. */
 typedef struct help_line {
-    const char *menu;
-    const ang_action *action;
+    const char *group, *left, *right;
+    const ang_action *action; /* whose shortcut is on the left; NULL: `left` */
 } help_line;
-enum { HELP_LINES = 256 };
+/* `SPARE`: lines that breaking into columns may add; `WIDTH`: pixels at scale 1 that a column takes about. */
+enum { HELP_LINES = 256, COLUMNS = 3, SPARE = 3 * COLUMNS, WIDTH = 328 };
 
-/* Actions under the names of their menus, with a line between menus. */
-static int list_help(help_line lines[HELP_LINES]) {
-    int action_count, count = 0;
-    const ang_action *actions = ang_actions(&action_count);
-    const char *menu = "";
-    for (int i = 0; i < action_count && count + 3 < HELP_LINES; i++) {
-        if (strcmp(menu, actions[i].menu) != 0) {
-            if (i > 0) lines[count++] = (help_line){0};
-            menu = actions[i].menu;
-            lines[count++] = (help_line){.menu = menu};
-        }
-        lines[count++] = (help_line){.action = &actions[i]};
+typedef struct help_list {
+    help_line line[HELP_LINES];
+    int count;
+} help_list;
+
+/* Under the name of its group, which stands after an empty line where it is another than before. */
+static void add(help_list *list, const char **group, help_line line) {
+    if (list->count + 3 > HELP_LINES) return;
+    if (strcmp(*group, line.group) != 0) {
+        if (list->count > 0) list->line[list->count++] = (help_line){0};
+        list->line[list->count++] = (help_line){.group = line.group};
     }
-    return count;
+    *group = line.group;
+    list->line[list->count++] = line;
 }
 
-static void show_help_line(ang_gui *gui, const help_line *line) {
+static void list_help(help_list *list) {
+    int action_count;
+    const ang_action *actions = ang_actions(&action_count);
+    const char *group = "";
+    for (int i = 0; i < action_count; i++)
+        add(list, &group, (help_line){.group = actions[i].menu, .right = actions[i].name, .action = &actions[i]});
+    for (size_t i = 0; i < sizeof hands / sizeof *hands; i++)
+        add(list, &group, (help_line){.group = hands[i].heading, .left = hands[i].hand, .right = hands[i].does});
+}
+
+static void show_line(ang_gui *gui, const help_line *line) {
     char text[32];
-    if (line->menu) {
-        ang_gui_table_next(gui);
-        ang_gui_text_accent(gui, line->menu);
-        ang_gui_table_next(gui);
-    } else {
-        help_cells(gui, line->action ? ang_action_shortcut(line->action, text) : "",
-                   line->action ? line->action->name : "");
+    ang_gui_table_next(gui);
+    if (line->group && !line->right)
+        ang_gui_text_accent(gui, line->group);
+    else
+        ang_gui_text(gui, "%s", line->action ? ang_action_shortcut(line->action, text) : line->left ? line->left : "");
+    ang_gui_table_next(gui);
+    ang_gui_text_dim(gui, "%s", line->right ? line->right : "");
+}
+
+/* Breaks the list into columns of one height, at most; a group that goes on in the next has its name there again. */
+static int break_columns(const help_list *list, int rows, int columns, help_line *grid) {
+    int at = 0;
+    memset(grid, 0, (HELP_LINES + SPARE) * sizeof *grid);
+    for (int i = 0; i < list->count; i++) {
+        const help_line *line = &list->line[i];
+        bool top = at % rows == 0, bottom = at % rows == rows - 1;
+        if (top && !line->group) continue;
+        if (bottom && line->group && !line->right) grid[at++] = (help_line){0}; /* no name at a column's end */
+        if (at % rows == 0 && at > 0 && line->right) grid[at++] = (help_line){.group = line->group};
+        if (at >= rows * columns) return 0;
+        grid[at++] = *line;
     }
+    return at;
 }
 
 void ang_help(ang_viewer *viewer) {
     if (!viewer->help) return;
     ang_gui *gui = viewer->gui;
-    static const help_line none = {0};
-    enum { hand_count = sizeof hands / sizeof *hands };
-    help_line lines[HELP_LINES];
-    /* Three columns of one height; the last one begins with what hands do. */
-    int count = list_help(lines), rows = (count + hand_count + 1 + 2) / 3, later = 2 * rows - hand_count - 1;
+    help_list list = {0};
+    help_line grid[HELP_LINES + SPARE];
+    int columns = (int)(viewer->input.width / ang_gui_px(gui, WIDTH));
+    columns = columns < 1 ? 1 : columns > COLUMNS ? COLUMNS : columns;
+    list_help(&list);
+    int rows = (list.count + columns - 1) / columns;
+    while (break_columns(&list, rows, columns, grid) == 0) rows++;
     ang_gui_message_begin(gui, "help");
-    bool open = ang_gui_table_begin(gui, "keys", 6);
-    for (int i = 0; i < rows && open; i++) {
-        show_help_line(gui, i < count ? &lines[i] : &none);
-        show_help_line(gui, rows + i < count ? &lines[rows + i] : &none);
-        if (i < hand_count)
-            help_cells(gui, hands[i].hand, hands[i].does);
-        else
-            show_help_line(gui, i > hand_count && later + i < count ? &lines[later + i] : &none);
-    }
+    bool open = ang_gui_table_begin(gui, "keys", 2 * columns);
+    for (int i = 0; i < rows && open; i++)
+        for (int j = 0; j < columns; j++) show_line(gui, &grid[j * rows + i]);
     if (open) ang_gui_table_end(gui);
     ang_gui_gap(gui, ang_gui_px(gui, 8));
     ang_gui_text_dim(gui, "Angioscope %s. Not a medical device; not for diagnosis. F1 or Esc closes this.",
