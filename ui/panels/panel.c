@@ -29,7 +29,7 @@ static void rendering(ang_viewer *viewer) {
     } else if (document->mode == ANG_MODE_ISO) {
         ang_gui_label(gui, "Surface at");
         ang_gui_number(gui, "##iso", &document->iso_hu, 2, -1e5, 1e5, unit, 0);
-        ang_gui_tooltip(gui, "Value of the surface: drag, or double-click and type");
+        ang_gui_tooltip(gui, "Value of the surface: drag, or type after a double click or Enter");
     } else {
         ang_gui_label(gui, "Window");
         ang_gui_text_dim(gui, "that of the slices");
@@ -60,8 +60,8 @@ static void slices(ang_viewer *viewer) {
     char format[32];
     snprintf(format, sizeof format, "W %s", unit);
     ang_gui_number(gui, "##width", &document->window_width, 2, viewer->study.volume->slope, high, format, half);
-    ang_gui_tooltip(
-        gui, "Width of the window: drag, or double-click and type. Also by dragging in a slice, and keys 1 to 9.");
+    ang_gui_tooltip(gui, "Width of the window: drag, or type after a double click or Enter. Also by dragging in a "
+                         "slice, and keys 1 to 9.");
     ang_gui_same_line(gui);
     snprintf(format, sizeof format, "C %s", unit);
     ang_gui_number(gui, "##centre", &document->window_centre, 2, low, high, format, half);

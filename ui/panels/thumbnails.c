@@ -103,7 +103,7 @@ void ang_thumbnails_show(ang_viewer *viewer) {
         if (canvas.activated || (canvas.clicked && canvas.released == ANG_BUTTON_LEFT)) taken = i;
     }
     ang_gui_gap(gui, ang_gui_px(gui, 2));
-    ang_gui_text_dim(gui, "A click takes one; Esc or B closes this.");
+    ang_gui_text_dim(gui, "A click, or arrows and Enter, take one; Esc or B closes this.");
     ang_gui_message_end(gui);
     if (taken < 0) return;
     ang_viewer_choose_preset(viewer, presets[taken]);

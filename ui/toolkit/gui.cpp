@@ -82,6 +82,7 @@ ang_gui *ang_gui_create(ang_window *window, ang_painter *painter, const char *fo
     gui->window = window;
     gui->painter = painter;
     gui->held = -1;
+    gui->by_keys = true;
     gui->theme = &ang_theme_dark;
     read_font(font, gui->font);
     ImGui::CreateContext();

@@ -129,7 +129,8 @@ void ang_gui_take_keys(ang_gui *gui) {
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     const ang_input &input = gui->input;
     leave_what_has_gone(gui);
-    bool pointing = input.x != gui->last_x || input.y != gui->last_y || input.button[0] || input.button[1];
+    bool pointing =
+        gui->frames++ > 0 && (input.x != gui->last_x || input.y != gui->last_y || input.button[0] || input.button[1]);
     if (input.press_count > 0 || pointing) gui->by_keys = input.press_count > 0;
     if (input.button[0] || input.button[1]) gui->bar = false;
     show_in_dialog(gui);

@@ -48,7 +48,8 @@ struct ang_gui {
     int bar_frames;                  /* without a menu, before the bar is left */
     int menu_waits;                  /* frames in which the menu beside the one that was left may open */
     bool pressing;                   /* Enter went down on a widget and is still held */
-    bool by_keys;                    /* the last that was done was done by a key */
+    bool by_keys;                    /* the last that was done was done by a key; at first so */
+    int frames;                      /* so far; in the first the pointer is where it happens to be */
     int waiting_step;                /* of Tab, for the next frame; 0: none */
     int focused_frame;               /* in which a text field was given the keyboard */
     double row;                      /* of the list that is open: pixels */

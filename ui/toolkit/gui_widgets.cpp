@@ -211,11 +211,20 @@ void ang_gui_progress(ang_gui *gui, double fraction, double width) {
 }
 void ang_gui_tooltip(ang_gui *gui, const char *text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    bool by_keys = g.NavDisableMouseHover && !g.NavDisableHighlight;
+    if (by_keys && ImGui::IsItemActive()) return;
+    /* Below what has the keyboard, above it at the window's foot: its value stays in sight. */
+    ImVec2 least = ImGui::GetItemRectMin(), most = ImGui::GetItemRectMax();
+    const float gap = (float)ang_gui_px(gui, 4);
+    bool above = most.y + (float)ang_gui_px(gui, 80) > g.IO.DisplaySize.y;
+    if (by_keys)
+        ImGui::SetNextWindowPos(ImVec2(least.x, above ? least.y - gap : most.y + gap), ImGuiCond_Always,
+                                ImVec2(0, above ? 1.0f : 0.0f));
     /* Beside a menu, not over what comes next in it. */
-    const ImGuiWindow *menu = ImGui::GetCurrentContext()->CurrentWindow;
+    const ImGuiWindow *menu = g.CurrentWindow;
     if (menu->Flags & ImGuiWindowFlags_Popup)
-        ImGui::SetNextWindowPos(
-            ImVec2(menu->Pos.x + menu->Size.x + (float)ang_gui_px(gui, 4), ImGui::GetItemRectMin().y));
+        ImGui::SetNextWindowPos(ImVec2(menu->Pos.x + menu->Size.x + gap, least.y));
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
     ImGui::TextUnformatted(text);
