@@ -178,10 +178,9 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
     layout(viewer);
     ang_painter_clear(viewer->painter, viewer->input.width, viewer->input.height, background);
     ang_gui_end(viewer->gui);
-    bool left_out = ang_identity_left_out(viewer);
     ang_shot_take(viewer);
-    if (left_out)
-        viewer->redraws = settling_frames; /* names do not blink: this frame is not shown */
+    if (viewer->shot.posed)
+        viewer->redraws = settling_frames; /* what it leaves out does not blink */
     else
         ang_window_show(viewer->window);
     viewer->frames++;
@@ -189,7 +188,7 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
     bool changing =
         ang_playing_volume(viewer) || ang_gui_holding(viewer->gui) || ang_gui_adjusting(viewer->gui) || viewer->typing;
     if (viewer->ready && !changing) ang_history_note(&viewer->history, &viewer->document, viewer->input.time_seconds);
-    if (viewer->save_wanted && viewer->ready) ang_save_pane(viewer);
+    if (viewer->ready) ang_save_panes(viewer);
     return ang_painter_check(viewer->painter, err);
 }
 
@@ -224,6 +223,7 @@ static void rest(ang_viewer *viewer) {
     }
     double seconds = rest_work_in(viewer);
     if (viewer->message[0]) seconds = fmin(seconds, fmax(viewer->message_until - ang_now_ms() / 1000, 0.01));
+    seconds = fmin(seconds, ang_gui_tooltip_in(viewer->gui));
     if (viewer->typing) seconds = fmin(seconds, 0.5); /* the text cursor blinks */
     if (seconds > 0) ang_window_wait(viewer->window, seconds);
     rest_work(viewer);

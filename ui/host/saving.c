@@ -23,7 +23,8 @@ static void save(ang_viewer *viewer, const char *what, const ang_image *image, b
 }
 
 static void ask(ang_viewer *viewer, int pane) {
-    viewer->shot = (ang_shot){.wanted = true, .pane = pane, .frame = viewer->frames};
+    viewer->shot.wanted |= 1u << pane;
+    viewer->shot.frame = viewer->frames;
 }
 
 void ang_shot_ask_pane(ang_viewer *viewer, int argument) {
@@ -33,17 +34,25 @@ void ang_shot_ask_pane(ang_viewer *viewer, int argument) {
 
 void ang_shot_ask_window(ang_viewer *viewer, int argument) {
     (void)argument;
-    ask(viewer, -1);
+    ask(viewer, ANG_PANES);
 }
 
-static bool waits_for_volume(const ang_viewer *viewer) {
-    return viewer->shot.pane == ANG_PANE_VOLUME && viewer->ready && !viewer->volume.refined;
+static bool waits_for_volume(const ang_viewer *viewer, int pane) {
+    /* While slices play nothing is refined: the window is then taken as it is. */
+    bool seen = viewer->pane[ANG_PANE_VOLUME].width >= 1 && !viewer->cine.running;
+    bool shows = pane == ANG_PANE_VOLUME || (pane == ANG_PANES && seen);
+    return shows && viewer->ready && !viewer->volume.refined;
 }
 
 void ang_shot_pose(ang_viewer *viewer) {
     ang_shot *shot = &viewer->shot;
-    shot->posed =
-        shot->wanted && viewer->frames > shot->frame && !ang_gui_popup_open(viewer->gui) && !waits_for_volume(viewer);
+    shot->posed = false;
+    if (viewer->frames <= shot->frame || ang_gui_popup_open(viewer->gui)) return;
+    for (int pane = ANG_PANES; pane >= 0; pane--) {
+        if (!(shot->wanted >> pane & 1) || waits_for_volume(viewer, pane)) continue;
+        shot->posed = true;
+        shot->pane = pane;
+    }
 }
 
 /* A part of what has been painted. */
@@ -64,43 +73,48 @@ static bool read_part(ang_viewer *viewer, ang_rect rect, ang_image *image, ang_e
 }
 
 void ang_shot_take(ang_viewer *viewer) {
-    static const char *const names[ANG_PANES] = {"axial-seen", "coronal-seen", "sagittal-seen", "volume-seen"};
+    static const char *const names[] = {"axial-seen", "coronal-seen", "sagittal-seen", "volume-seen", "window"};
     ang_shot *shot = &viewer->shot;
-    if (!shot->posed || waits_for_volume(viewer)) return;
+    if (!shot->posed || waits_for_volume(viewer, shot->pane)) return;
     ang_error err = {0};
     ang_image image = {0};
     ang_rect rect = {0, 0, viewer->input.width, viewer->input.height};
-    if (shot->pane >= 0) rect = viewer->pane[shot->pane];
+    if (shot->pane < ANG_PANES) rect = viewer->pane[shot->pane];
     if (rect.width >= 1 && read_part(viewer, rect, &image, &err))
-        save(viewer, shot->pane < 0 ? "window" : names[shot->pane], &image, false, &err);
+        save(viewer, names[shot->pane], &image, false, &err);
     else if (rect.width >= 1)
         ang_viewer_say(viewer, true, "%s", err.message);
     ang_image_clear(&image);
-    *shot = (ang_shot){0};
-    viewer->redraws = 2; /* with all that was left out */
+    shot->wanted &= ~(1u << shot->pane);
 }
 
-void ang_save_pane(ang_viewer *viewer) {
+static void save_pane(ang_viewer *viewer, ang_pane pane) {
     ang_error err = {0};
-    if (viewer->save_pane == ANG_PANE_VOLUME) {
-        if (!viewer->volume.refined) return;
+    if (pane == ANG_PANE_VOLUME) {
         if (viewer->volume.failure[0])
             ang_viewer_say(viewer, true, "%s", viewer->volume.failure);
         else
             save(viewer, "volume", &viewer->volume.image, true, &err);
-    } else {
-        ang_image image = {0};
-        if (ang_slice_image(viewer, (ang_orientation)viewer->save_pane, &image, &err))
-            save(viewer, ang_orientation_name((ang_orientation)viewer->save_pane), &image, false, &err);
-        else
-            ang_viewer_say(viewer, true, "%s", err.message);
-        ang_image_clear(&image);
+        return;
     }
-    viewer->save_wanted = false;
+    ang_image image = {0};
+    if (ang_slice_image(viewer, (ang_orientation)pane, &image, &err))
+        save(viewer, ang_orientation_name((ang_orientation)pane), &image, false, &err);
+    else
+        ang_viewer_say(viewer, true, "%s", err.message);
+    ang_image_clear(&image);
+}
+
+void ang_save_panes(ang_viewer *viewer) {
+    for (int pane = 0; pane < ANG_PANES; pane++) {
+        if (!(viewer->save_wanted >> pane & 1)) continue;
+        if (pane == ANG_PANE_VOLUME && !viewer->volume.refined) continue;
+        save_pane(viewer, (ang_pane)pane);
+        viewer->save_wanted &= ~(1u << pane);
+    }
 }
 
 void ang_save_pane_ask(ang_viewer *viewer, int argument) {
     (void)argument;
-    viewer->save_wanted = true;
-    viewer->save_pane = (ang_pane)viewer->focus.pane;
+    viewer->save_wanted |= 1u << viewer->focus.pane;
 }

@@ -111,6 +111,13 @@ static void stretch(ang_viewer *viewer, ang_rect rect, const cut *cut, double fr
                  y + to * cut->direction[1], ink, thickness(viewer));
 }
 
+/* Free of what lies under the crosshair. */
+static void draw_line(ang_viewer *viewer, ang_rect rect, const cut *cut, ang_ink ink) {
+    double free = ang_gui_px(viewer->gui, gap);
+    stretch(viewer, rect, cut, cut->begin, fmin(cut->end, -free), ink);
+    stretch(viewer, rect, cut, fmax(cut->begin, free), cut->end, ink);
+}
+
 static void draw_handles(ang_viewer *viewer, ang_rect rect, const cut *cut, bool turning, const ang_canvas *canvas) {
     double along[2], small = ang_gui_px(viewer->gui, 4), large = ang_gui_px(viewer->gui, 6);
     for (int i = handles(viewer, cut, along) - 1; i >= 0; i--) {
@@ -139,19 +146,17 @@ void ang_crosshair_draw(ang_viewer *viewer, ang_pane pane, ang_rect rect, const 
                         const ang_canvas *canvas) {
     const ang_gesture *gesture = &viewer->gesture;
     bool turning = canvas->held >= 0 && gesture->pane == (int)pane && gesture->turns && !gesture->cancelled;
-    double slab = viewer->document.slab_mm, free = ang_gui_px(viewer->gui, gap);
+    bool grips = turning || (tool_turns(viewer) && canvas->hovered && canvas->held < 0 && !viewer->shot.posed);
+    double slab = viewer->document.slab_mm;
     for (int other = 0; other < ANG_PANE_VOLUME; other++) {
         if (other == (int)pane) continue;
         for (int side = -1; side <= 1 && slab > 0; side += 2) {
             cut face = cut_of(viewer, (ang_pane)other, frame, side * slab / 2);
-            stretch(viewer, rect, &face, face.begin, face.end, ang_pane_ink((ang_pane)other, 90));
+            draw_line(viewer, rect, &face, ang_pane_ink((ang_pane)other, 90));
         }
         cut cut = cut_of(viewer, (ang_pane)other, frame, 0);
-        ang_ink ink = ang_pane_ink((ang_pane)other, 170);
-        stretch(viewer, rect, &cut, cut.begin, fmin(cut.end, -free), ink);
-        stretch(viewer, rect, &cut, fmax(cut.begin, free), cut.end, ink);
-        if (turning || (tool_turns(viewer) && canvas->hovered && canvas->held < 0))
-            draw_handles(viewer, rect, &cut, turning, canvas);
+        draw_line(viewer, rect, &cut, ang_pane_ink((ang_pane)other, 170));
+        if (grips) draw_handles(viewer, rect, &cut, turning, canvas);
     }
     if (turning) write_angle(viewer, pane, rect, canvas);
 }

@@ -5,11 +5,9 @@
 
 #include <stdio.h>
 
-bool ang_identity_left_out(const ang_viewer *viewer) {
-    return !viewer->names_hidden && viewer->shot.posed && !viewer->host->keep_phi;
+bool ang_identity_shown(const ang_viewer *viewer) {
+    return !viewer->names_hidden && (!viewer->shot.posed || viewer->host->keep_phi);
 }
-
-bool ang_identity_shown(const ang_viewer *viewer) { return !viewer->names_hidden && !ang_identity_left_out(viewer); }
 
 const char *ang_identity_series(const ang_viewer *viewer, char text[340]) {
     const ang_study *study = &viewer->study;

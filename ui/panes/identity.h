@@ -11,8 +11,6 @@ typedef struct ang_viewer ang_viewer;
 
 /* Whether names, descriptions and the like may be drawn in this frame. */
 bool ang_identity_shown(const ang_viewer *viewer);
-/* Whether this frame leaves them out only because it is saved: it is not to be seen. */
-bool ang_identity_left_out(const ang_viewer *viewer);
 /* "CT series 3: head", without its description where that is not shown. */
 const char *ang_identity_series(const ang_viewer *viewer, char text[340]);
 /* Patient and series in a pane's upper corners. */

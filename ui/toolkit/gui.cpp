@@ -130,6 +130,7 @@ bool ang_gui_begin(ang_gui *gui, const ang_input *input, ang_error *err) {
     io.KeyAlt = input->modifiers & ANG_MOD_ALT;
     for (int i = 0; i < input->character_count; i++) io.AddInputCharacter(input->characters[i]);
     gui->cursor = ANG_CURSOR_ARROW;
+    gui->tooltip_in = INFINITY;
     ang_gui_take_keys(gui);
     ImGui::NewFrame();
     ImGui::PushFont(gui->normal);

@@ -102,8 +102,10 @@ bool ang_gui_text_field(ang_gui *gui, const char *name, char *text, size_t size,
 /* A swatch that opens a picker; red, green, blue in 0..1. */
 bool ang_gui_colour(ang_gui *gui, const char *name, double colour[3]);
 void ang_gui_progress(ang_gui *gui, double fraction, double width);
-/* Of the widget before. */
+/* Of the widget before, once the pointer has rested there for a moment; not where it is pressed. */
 void ang_gui_tooltip(ang_gui *gui, const char *text);
+/* Seconds after this frame's input until a tooltip is due; infinite: none is. */
+double ang_gui_tooltip_in(const ang_gui *gui);
 double ang_gui_room(const ang_gui *gui); /* pixels left to the right of where the next widget goes */
 
 /* A list in columns. */

@@ -52,6 +52,10 @@ struct ang_gui {
     int frames;                      /* so far; in the first the pointer is where it happens to be */
     int waiting_step;                /* of Tab, for the next frame; 0: none */
     int focused_frame;               /* in which a text field was given the keyboard */
+    ImGuiID pointed;                 /* the widget with a tooltip that the pointer rests on; 0: none */
+    double pointed_since;            /* seconds; infinite once it has been pressed */
+    int pointed_frame;               /* in which the pointer was last seen there */
+    double tooltip_in;               /* seconds; infinite: none is to come */
     double row;                      /* of the list that is open: pixels */
     size_t row_count;
     bool tab_kept;  /* Tab completes in the field of a path that was shown in the frame before */

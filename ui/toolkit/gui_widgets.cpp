@@ -209,11 +209,27 @@ bool ang_gui_colour(ang_gui *gui, const char *name, double colour[3]) {
 void ang_gui_progress(ang_gui *gui, double fraction, double width) {
     ImGui::ProgressBar((float)fraction, ImVec2((float)width, (float)ang_gui_px(gui, 8)), "");
 }
+/* Whether the pointer has rested on the last widget long enough. */
+static bool rested(ang_gui *gui) {
+    static const double rest_seconds = 0.5;
+    ImGuiID id = ImGui::GetItemID();
+    int frame = ImGui::GetFrameCount();
+    if (id != gui->pointed || frame > gui->pointed_frame + 1) gui->pointed_since = gui->time;
+    gui->pointed = id;
+    gui->pointed_frame = frame;
+    if (ImGui::IsAnyMouseDown()) gui->pointed_since = INFINITY;
+    double left = gui->pointed_since + rest_seconds - gui->time;
+    if (left > 0) gui->tooltip_in = left;
+    return left <= 0;
+}
+
+double ang_gui_tooltip_in(const ang_gui *gui) { return gui->tooltip_in; }
+
 void ang_gui_tooltip(ang_gui *gui, const char *text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     bool by_keys = g.NavDisableMouseHover && !g.NavDisableHighlight;
-    if (by_keys && ImGui::IsItemActive()) return;
+    if (by_keys ? ImGui::IsItemActive() : !rested(gui)) return;
     /* Below what has the keyboard, above it at the window's foot: its value stays in sight. */
     ImVec2 least = ImGui::GetItemRectMin(), most = ImGui::GetItemRectMax();
     const float gap = (float)ang_gui_px(gui, 4);
