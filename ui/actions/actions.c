@@ -106,6 +106,12 @@ static void slab_thickness(ang_viewer *viewer, int direction) {
     viewer->document.slab_mm = steps[at < 0 ? 0 : at >= count ? count - 1 : at];
 }
 
+static void slab_projection(ang_viewer *viewer, int argument) {
+    (void)argument;
+    viewer->document.slab = (ang_slab)((viewer->document.slab + 1) % (ANG_SLAB_MINIP + 1));
+    if (!(viewer->document.slab_mm > 0)) ang_viewer_say(viewer, false, "A slab of 0 mm shows the plane alone: key ]");
+}
+
 static void show_palette(ang_viewer *viewer, int argument) {
     (void)argument;
     ang_palette_open(viewer);
@@ -219,6 +225,8 @@ static const ang_action actions[] = {
     {"Slices", "Ten slices back", NULL, ANG_KEY_PAGE_DOWN, 0, ang_focus_scroll, -10, false, is_ready, NULL},
     {"Slices", "Thicker slab", NULL, ']', 0, slab_thickness, 1, true, is_ready, NULL},
     {"Slices", "Thinner slab", NULL, '[', 0, slab_thickness, -1, false, is_ready, NULL},
+    {"Slices", "Slab: mean, MIP, MinIP", "what it shows, one after the other", ']', S, slab_projection, 0, false,
+     is_ready, NULL},
     {"Slices", "Voxels as they are", "the nearest voxel's value, not interpolated", 'I', 0, toggle, FLAG(voxels_shown),
      false, is_ready, is_on},
     {"Slices", "Cine", "of the slices of the pane with the bright frame; in the 3D pane it turns", 'V', 0,

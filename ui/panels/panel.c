@@ -67,7 +67,7 @@ static void slices(ang_viewer *viewer) {
     ang_gui_number(gui, "##centre", &document->window_centre, 2, low, high, format, half);
     ang_gui_tooltip(gui, "Centre of the window");
     ang_gui_label(gui, "Slab");
-    ang_gui_number(gui, "##slab", &document->slab_mm, 0.1, 0, 200, "%.1f mm", half);
+    ang_gui_number(gui, "##slab", &document->slab_mm, 0.1, 0, 200, document->slab_mm > 0 ? "%.1f mm" : "off", half);
     ang_gui_tooltip(gui, "Thickness of what a slice shows; 0: the plane alone. Keys [ and ].");
     ang_gui_same_line(gui);
     static const char *const slabs[] = {"Mean", "MIP", "MinIP"};
@@ -85,7 +85,7 @@ static void series(ang_viewer *viewer) {
     ang_gui_text(gui, "%s", ang_identity_series(viewer, title));
     ang_gui_text_dim(gui, "%d x %d x %d voxels", dims[0], dims[1], dims[2]);
     ang_gui_text_dim(gui, "%.3g x %.3g x %.3g mm", ang_volume_spacing(study->volume, 0),
-                     ang_volume_spacing(study->volume, 1), ang_volume_spacing(study->volume, 2));
+                     ang_volume_spacing(study->volume, 1), ang_volume_slice_distance(study->volume));
     char text[80];
     double half = (ang_gui_room(gui) - ang_gui_px(gui, 8)) / 2;
     if (study->series_count > 1)

@@ -150,6 +150,14 @@ static void measure_lines(const sheet *s, char text[][64], int lines, double siz
     size[1] = lines * (ang_gui_text_height(s->gui, true) + ang_gui_px(s->gui, 2));
 }
 
+/* Moved so that all of it is in the pane, its beginning where it is too large. */
+static ang_mark_box kept_in_pane(const sheet *s, ang_mark_box box) {
+    double edge = 4 * s->scale;
+    double x = fmax(fmin(0, s->rect.width - edge - box.right), edge - box.left);
+    double y = fmax(fmin(0, s->rect.height - edge - box.bottom), edge - box.top);
+    return (ang_mark_box){box.left + x, box.top + y, box.right + x, box.bottom + y};
+}
+
 static ang_mark_box label(const sheet *s, const ang_measurement *m, const ang_region_values *values, double at[][2],
                           int count, taken_boxes *taken) {
     char text[ANG_MEASURE_LINES][64];
@@ -157,6 +165,7 @@ static ang_mark_box label(const sheet *s, const ang_measurement *m, const ang_re
     int lines = ang_measurement_lines(m, values, s->viewer->study.hounsfield ? "HU" : "", text);
     measure_lines(s, text, lines, size);
     ang_mark_box box = ang_mark_label(m, s->frame, size[0], size[1], label_gap * s->scale, taken->box, taken->count);
+    box = kept_in_pane(s, box);
     taken->box[taken->count++] = box;
     if (m->label_placed) leader(s, m, at, count, &box);
     write_lines(s, box, text, lines);

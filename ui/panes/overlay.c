@@ -100,10 +100,22 @@ void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane) {
                   letters[pane]);
 }
 
-/* A cell of the status line, of a width that does not follow its text. */
-static void cell(ang_viewer *viewer, double *x, double y, double width, bool dim, const char *text) {
-    ang_gui_write(viewer->gui, *x, y, 0, true, false, dim ? viewer->theme->dim : viewer->theme->text, text);
-    *x += ang_gui_px(viewer->gui, width);
+/* The status line. Cells have widths that do not follow their text; those that would reach beyond `end` are left out,
+ * since a message needs the room. */
+typedef struct status {
+    ang_viewer *viewer;
+    double x, y, end;
+} status;
+
+static void cell(status *status, double width, bool dim, const char *text) {
+    const ang_theme *theme = status->viewer->theme;
+    width = ang_gui_px(status->viewer->gui, width);
+    if (status->x + width > status->end) {
+        status->end = -INFINITY;
+        return;
+    }
+    ang_gui_write(status->viewer->gui, status->x, status->y, 0, true, false, dim ? theme->dim : theme->text, text);
+    status->x += width;
 }
 
 /* "L 12.3  P 4.0  H 100.0 mm": each with the letter of the side on which it lies. */
@@ -116,56 +128,54 @@ static void write_place(ang_vec3 mm, char *text, size_t size) {
              fabs(at[2]));
 }
 
-/* At the right; where there is too little room it covers what stands there. */
-static void write_message(ang_viewer *viewer, ang_rect rect, double y) {
-    ang_gui *gui = viewer->gui;
-    double edge = ang_gui_px(gui, 12), room = rect.width - 2 * edge, right = rect.x + rect.width - edge;
-    char text[sizeof viewer->message];
-    const char *fitted = fit(gui, viewer->message, room, text, sizeof text);
-    double left = right - ang_gui_text_width(gui, fitted, true);
-    ang_gui_fill(gui, (ang_rect){left - edge, rect.y, right + edge - (left - edge), rect.height}, viewer->theme->panel);
-    ang_gui_write(gui, left, y, 0, true, false, viewer->message_bad ? viewer->theme->bad : viewer->theme->accent,
-                  fitted);
+static void status_cells(status *status) {
+    ang_viewer *viewer = status->viewer;
+    const ang_document *document = &viewer->document;
+    const char *unit = viewer->study.hounsfield ? "HU" : "";
+    char text[256];
+    bool hovering = viewer->hovered < ANG_PANE_VOLUME;
+    write_place(hovering ? viewer->hovered_mm : viewer->crosshair, text, sizeof text);
+    cell(status, 200, false, text);
+    double hu = hovering ? viewer->hovered_hu : ang_viewer_hu_at(viewer, viewer->crosshair);
+    if (isnan(hu))
+        snprintf(text, sizeof text, "outside");
+    else
+        snprintf(text, sizeof text, "%.0f %s", hu, unit);
+    cell(status, 72, false, text);
+    snprintf(text, sizeof text, "C %.0f  W %.0f", document->window_centre, document->window_width);
+    cell(status, 110, true, text);
+    if (viewer->focus.pane < ANG_PANE_VOLUME)
+        snprintf(text, sizeof text, "zoom %.0f %%", ang_slice_zoom_percent(viewer, (ang_pane)viewer->focus.pane));
+    else
+        snprintf(text, sizeof text, "zoom %.2f", document->view.zoom);
+    cell(status, 76, true, text);
+    bool measures = viewer->tool == ANG_TOOL_MEASURE;
+    snprintf(text, sizeof text, "tool: %s",
+             measures ? ang_measure_kind_name(viewer->measuring.kind) : ang_tool_name(viewer->tool));
+    cell(status, 110, true, text);
+    const ang_volume_picture *volume = &viewer->volume;
+    snprintf(text, sizeof text, "%s, %s", volume->method ? volume->method->name : "-", ang_mode_name(document->mode));
+    cell(status, 110, true, text);
+    const char *state = volume->refined ? "refined" : ang_volume_level(viewer) > 0 ? "refining" : "coarse";
+    snprintf(text, sizeof text, "%.0f ms, %s", volume->frame_ms, state);
+    cell(status, 110, true, text);
+    ang_picture_error_text(viewer, text, sizeof text);
+    cell(status, 150, true, text);
 }
 
 void ang_status_line(ang_viewer *viewer, ang_rect rect) {
     ang_gui *gui = viewer->gui;
     ang_gui_area_begin(gui, "status", rect, true);
-    double x = rect.x + ang_gui_px(gui, 12), y = rect.y + (rect.height - ang_gui_text_height(gui, true)) / 2;
-    char text[256];
-    if (viewer->ready) {
-        const ang_document *document = &viewer->document;
-        const char *unit = viewer->study.hounsfield ? "HU" : "";
-        bool hovering = viewer->hovered < ANG_PANE_VOLUME;
-        write_place(hovering ? viewer->hovered_mm : viewer->crosshair, text, sizeof text);
-        cell(viewer, &x, y, 200, false, text);
-        double hu = hovering ? viewer->hovered_hu : ang_viewer_hu_at(viewer, viewer->crosshair);
-        if (isnan(hu))
-            snprintf(text, sizeof text, "outside");
-        else
-            snprintf(text, sizeof text, "%.0f %s", hu, unit);
-        cell(viewer, &x, y, 72, false, text);
-        snprintf(text, sizeof text, "C %.0f  W %.0f", document->window_centre, document->window_width);
-        cell(viewer, &x, y, 110, true, text);
-        if (hovering)
-            snprintf(text, sizeof text, "zoom %.0f %%", ang_slice_zoom_percent(viewer, viewer->hovered));
-        else
-            snprintf(text, sizeof text, "zoom %.2f", document->view.zoom);
-        cell(viewer, &x, y, 76, true, text);
-        bool measures = viewer->tool == ANG_TOOL_MEASURE;
-        snprintf(text, sizeof text, "tool: %s",
-                 measures ? ang_measure_kind_name(viewer->measuring.kind) : ang_tool_name(viewer->tool));
-        cell(viewer, &x, y, 110, true, text);
-        const ang_volume_picture *volume = &viewer->volume;
-        snprintf(text, sizeof text, "%s, %s", volume->method ? volume->method->name : "-",
-                 ang_mode_name(document->mode));
-        cell(viewer, &x, y, 110, true, text);
-        const char *state = volume->refined ? "refined" : ang_volume_level(viewer) > 0 ? "refining" : "coarse";
-        snprintf(text, sizeof text, "%.0f ms, %s", volume->frame_ms, state);
-        cell(viewer, &x, y, 110, true, text);
-        ang_picture_error_text(viewer, text, sizeof text);
-        cell(viewer, &x, y, 132, true, text);
+    const char *message = viewer->shot.posed ? "" : viewer->message; /* it may name a folder */
+    double margin = ang_gui_px(gui, 12), right = rect.x + rect.width - margin, left = rect.x + margin;
+    double y = rect.y + (rect.height - ang_gui_text_height(gui, true)) / 2;
+    double needed = message[0] ? ang_gui_text_width(gui, message, true) + margin : 0;
+    status status = {viewer, left, y, right - needed};
+    if (viewer->ready) status_cells(&status);
+    if (message[0]) {
+        char fitted[sizeof viewer->message + 4];
+        ang_ink ink = viewer->message_bad ? viewer->theme->bad : viewer->theme->accent;
+        ang_gui_write(gui, right, y, 1, true, false, ink, fit(gui, message, right - left, fitted, sizeof fitted));
     }
-    if (viewer->message[0] && !viewer->shot.posed) write_message(viewer, rect, y); /* it may name a folder */
     ang_gui_area_end(gui);
 }

@@ -52,5 +52,5 @@ void ang_picture_error_text(const ang_viewer *viewer, char *text, size_t size) {
     if (!isfinite(levels)) return;
     /* Upwards: rather too much than too little. */
     levels = levels < 10 ? ceil(10 * levels) / 10 : ceil(levels);
-    snprintf(text, size, "%s \xc2\xb1%.*f levels", largest ? "about" : "RMS about", levels < 10, levels);
+    snprintf(text, size, "%s \xc2\xb1%.*f levels", largest ? "error about" : "RMS error about", levels < 10, levels);
 }
