@@ -12,6 +12,7 @@
 #include "core/transfer/preset.h"
 #include "core/volume/raw_slice.h"
 #include "core/volume/volume.h"
+#include "ui/gui.h"
 #include "ui/host/settings.h"
 #include "ui/state/cine.h"
 #include "ui/state/document.h"
@@ -21,7 +22,6 @@
 #include "ui/state/session.h"
 #include "ui/state/slice_geometry.h"
 #include "ui/state/source.h"
-#include "ui/toolkit/gui.h"
 
 /* What has been loaded. Owned by the host until `release`. */
 typedef struct ang_study {

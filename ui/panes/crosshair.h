@@ -3,9 +3,9 @@
 #ifndef ANG_UI_CROSSHAIR_H
 #define ANG_UI_CROSSHAIR_H
 
+#include "ui/gui.h"
 #include "ui/state/layout.h"
 #include "ui/state/slice_geometry.h"
-#include "ui/toolkit/gui.h"
 
 typedef struct ang_viewer ang_viewer;
 

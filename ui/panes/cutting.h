@@ -6,7 +6,7 @@
 #include "ui/state/crop_geometry.h"
 
 typedef struct ang_viewer ang_viewer;
-#include "ui/toolkit/gui.h"
+#include "ui/gui.h"
 
 /* What of it a hand can take hold of. */
 typedef enum ang_grip_kind { ANG_CUTTING_NONE, ANG_CUTTING_FACES, ANG_CUTTING_PLANE, ANG_CUTTING_TIP } ang_grip_kind;

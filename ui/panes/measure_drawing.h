@@ -3,9 +3,9 @@
 #define ANG_UI_MEASURE_DRAWING_H
 
 #include "core/scene/scene.h"
+#include "ui/gui.h"
 #include "ui/state/layout.h"
 #include "ui/state/slice_geometry.h"
-#include "ui/toolkit/gui.h"
 
 typedef struct ang_viewer ang_viewer;
 

@@ -2,9 +2,9 @@
 #ifndef ANG_UI_MEASURING_H
 #define ANG_UI_MEASURING_H
 
+#include "ui/gui.h"
 #include "ui/state/layout.h"
 #include "ui/state/measure_marks.h"
-#include "ui/toolkit/gui.h"
 
 typedef struct ang_viewer ang_viewer;
 

@@ -3,8 +3,8 @@
 #define ANG_UI_OVERLAY_H
 
 #include "core/math/vec.h"
+#include "ui/gui.h"
 #include "ui/state/layout.h"
-#include "ui/toolkit/gui.h"
 
 typedef struct ang_viewer ang_viewer;
 

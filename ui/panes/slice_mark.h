@@ -2,7 +2,7 @@
 #ifndef ANG_UI_SLICE_MARK_H
 #define ANG_UI_SLICE_MARK_H
 
-#include "ui/toolkit/gui.h"
+#include "ui/gui.h"
 
 typedef struct ang_viewer ang_viewer;
 

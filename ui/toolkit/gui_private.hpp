@@ -6,7 +6,7 @@
 #include <imgui_internal.h>
 
 extern "C" {
-#include "ui/toolkit/gui.h"
+#include "ui/gui.h"
 }
 
 #include <cmath>
