@@ -128,7 +128,11 @@ bool ang_gui_begin(ang_gui *gui, const ang_input *input, ang_error *err) {
     io.KeyShift = input->modifiers & ANG_MOD_SHIFT;
     io.KeyCtrl = input->modifiers & ANG_MOD_CONTROL;
     io.KeyAlt = input->modifiers & ANG_MOD_ALT;
-    for (int i = 0; i < input->character_count; i++) io.AddInputCharacter(input->characters[i]);
+    gui->characters.insert(gui->characters.end(), input->characters, input->characters + input->character_count);
+    if (!gui->changing_field)
+        for (unsigned c : gui->characters) io.AddInputCharacter(c);
+    if (!gui->changing_field) gui->characters.clear();
+    gui->changing_field = false;
     gui->cursor = ANG_CURSOR_ARROW;
     gui->tooltip_in = INFINITY;
     ang_gui_take_keys(gui);

@@ -94,7 +94,7 @@ static void take_tabs(ang_gui *gui) {
         int by = input.press[i].modifiers & ANG_MOD_SHIFT ? -1 : 1;
         if (ang_gui_popup_open(gui) || gui->tab_kept) continue;
         if (ImGui::GetIO().WantTextInput)
-            gui->waiting_step = by;
+            gui->waiting_step = by, gui->changing_field = true;
         else
             step(gui, by);
     }

@@ -38,25 +38,27 @@ struct ang_gui {
     double start_x, start_y, last_x, last_y;
     bool moved;
     /* Who has the keyboard (gui_focus.cpp). */
-    std::vector<ang_gui_stop> stops; /* in the order of the frame */
-    ImGuiWindow *dialog;             /* in front; nullptr: none */
-    bool dialog_open;                /* there was one in the frame before */
-    ImGuiID before;                  /* the widget that had the keyboard before the dialog; 0: none */
-    ImGuiID arrows_of;               /* a canvas that uses arrows itself; 0: none */
-    bool navigating;                 /* widgets have the keyboard */
-    bool bar, menus_wanted;          /* the bar of menus has it; it is to have it */
-    int bar_frames;                  /* without a menu, before the bar is left */
-    int menu_waits;                  /* frames in which the menu beside the one that was left may open */
-    bool pressing;                   /* Enter went down on a widget and is still held */
-    bool by_keys;                    /* the last that was done was done by a key; at first so */
-    int frames;                      /* so far; in the first the pointer is where it happens to be */
-    int waiting_step;                /* of Tab, for the next frame; 0: none */
-    int focused_frame;               /* in which a text field was given the keyboard */
-    ImGuiID pointed;                 /* the widget with a tooltip that the pointer rests on; 0: none */
-    double pointed_since;            /* seconds; infinite once it has been pressed */
-    int pointed_frame;               /* in which the pointer was last seen there */
-    double tooltip_in;               /* seconds; infinite: none is to come */
-    double row;                      /* of the list that is open: pixels */
+    std::vector<ang_gui_stop> stops;  /* in the order of the frame */
+    ImGuiWindow *dialog;              /* in front; nullptr: none */
+    bool dialog_open;                 /* there was one in the frame before */
+    ImGuiID before;                   /* the widget that had the keyboard before the dialog; 0: none */
+    ImGuiID arrows_of;                /* a canvas that uses arrows itself; 0: none */
+    bool navigating;                  /* widgets have the keyboard */
+    bool bar, menus_wanted;           /* the bar of menus has it; it is to have it */
+    int bar_frames;                   /* without a menu, before the bar is left */
+    int menu_waits;                   /* frames in which the menu beside the one that was left may open */
+    bool pressing;                    /* Enter went down on a widget and is still held */
+    bool by_keys;                     /* the last that was done was done by a key; at first so */
+    int frames;                       /* so far; in the first the pointer is where it happens to be */
+    int waiting_step;                 /* of Tab, for the next frame; 0: none */
+    bool changing_field;              /* in that frame no field takes letters yet: */
+    std::vector<unsigned> characters; /* typed since */
+    int focused_frame;                /* in which a text field was given the keyboard */
+    ImGuiID pointed;                  /* the widget with a tooltip that the pointer rests on; 0: none */
+    double pointed_since;             /* seconds; infinite once it has been pressed */
+    int pointed_frame;                /* in which the pointer was last seen there */
+    double tooltip_in;                /* seconds; infinite: none is to come */
+    double row;                       /* of the list that is open: pixels */
     size_t row_count;
     bool tab_kept;  /* Tab completes in the field of a path that was shown in the frame before */
     bool path_held; /* the field of a path had the keyboard in the frame before */
