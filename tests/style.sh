@@ -15,7 +15,7 @@ found=$(grep -rnE '#include "(ui|app)/' io || true)
 [ -z "$found" ] || complain "io includes what it must not" "$found"
 found=$(grep -rnE '#include "(io|app)/' ui || true)
 [ -z "$found" ] || complain "ui includes what it must not" "$found"
-found=$(grep -rnE '#include "ui/(actions|dialogs|host|panels|panes|[a-z_]+\.h)' ui/state ui/toolkit || true)
+found=$(grep -rnE '#include "ui/(actions|dialogs|host|panels|panes|[a-z_]+\.h)' ui/state ui/toolkit | grep -vF '"ui/gui.h"' || true)
 [ -z "$found" ] || complain "ui/state and ui/toolkit know nothing of the viewer" "$found"
 found=$(grep -rlE 'glad/gl\.h|\bgl[A-Z][A-Za-z]+\(' core io ui app --include=*.c --include=*.h | grep -v '^core/render/' || true)
 [ -z "$found" ] || complain "OpenGL outside core/render" "$found"
