@@ -91,8 +91,8 @@ int main(int argc, char **argv) {
     }
     for (int i = 0; i < verb_count; i++)
         if (strcmp(argv[1], verbs[i].name) == 0) return run_verb(&verbs[i], argc - 1, argv + 1);
-    /* What is there to be opened needs no verb. */
-    if (access(argv[1], F_OK) == 0) return run_verb(&verbs[0], argc, argv);
+    /* What is there to be opened needs no verb, nor do options. */
+    if (argv[1][0] == '-' || access(argv[1], F_OK) == 0) return run_verb(&verbs[0], argc, argv);
     if (strchr(argv[1], '/')) {
         fprintf(stderr, "angioscope: %s: there is no such file or folder\n", argv[1]);
         return ANG_INPUT;
