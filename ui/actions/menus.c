@@ -4,6 +4,7 @@
 #include "ui/actions/window_presets.h"
 #include "ui/viewer_private.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -16,8 +17,11 @@ static void list_windows(ang_viewer *viewer) {
         if (i == 0)
             snprintf(text, sizeof text, "%s", windows[i].name);
         else
-            snprintf(text, sizeof text, "%s   W %.0f  C %.0f", windows[i].name, windows[i].width, windows[i].centre);
-        if (ang_gui_menu_item(viewer->gui, text, key, false, viewer->ready)) ang_window_preset_choose(viewer, i);
+            snprintf(text, sizeof text, "%s   C %.0f  W %.0f", windows[i].name, windows[i].centre, windows[i].width);
+        const ang_document *document = &viewer->document;
+        bool shown = fabs(document->window_centre - windows[i].centre) < 0.5 &&
+                     fabs(document->window_width - windows[i].width) < 0.5;
+        if (ang_gui_menu_item(viewer->gui, text, key, shown, viewer->ready)) ang_window_preset_choose(viewer, i);
     }
     ang_gui_menu_end(viewer->gui);
 }

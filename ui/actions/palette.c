@@ -56,8 +56,8 @@ static void add_windows(const ang_viewer *viewer, list *list) {
     for (int i = 0; i < count; i++) {
         entry entry = {.window = i, .enabled = viewer->ready};
         if (isfinite(windows[i].width))
-            snprintf(entry.name, sizeof entry.name, "Window level: %s (W %.0f C %.0f)", windows[i].name,
-                     windows[i].width, windows[i].centre);
+            snprintf(entry.name, sizeof entry.name, "Window level: %s (C %.0f W %.0f)", windows[i].name,
+                     windows[i].centre, windows[i].width);
         else
             snprintf(entry.name, sizeof entry.name, "Window level: %s", windows[i].name);
         snprintf(entry.shortcut, sizeof entry.shortcut, "%d", i + 1);

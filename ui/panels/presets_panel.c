@@ -40,7 +40,10 @@ void ang_presets_panel(ang_viewer *viewer) {
     choose(viewer, presets, count, chosen);
     ang_thumbnails_strip(viewer);
     bool changed = viewer->document.edited, key = viewer->input.key['D'] && viewer->input.modifiers == 0;
-    double width = (ang_gui_room(gui) - 3 * ang_gui_px(gui, 8)) / 4;
+    /* In two rows where the panel is narrow. */
+    double apart = ang_gui_px(gui, 8), least = ang_gui_px(gui, 62);
+    int across = ang_gui_room(gui) < 4 * least + 3 * apart ? 2 : 4;
+    double width = (ang_gui_room(gui) - (across - 1) * apart) / across;
     ang_gui_button(gui, "Compare", width, changed);
     viewer->comparing = changed && (ang_gui_pressed(gui) || (key && !viewer->typing && !ang_gui_popup_open(gui)));
     ang_gui_tooltip(gui, "Shows the preset as it is saved as long as this is held down. Key D.");
@@ -49,7 +52,7 @@ void ang_presets_panel(ang_viewer *viewer) {
     const ang_preset *saved = chosen >= 0 ? presets[chosen] : NULL;
     if (ang_gui_button(gui, "Reset", width, changed && saved)) ang_viewer_choose_preset(viewer, saved);
     ang_gui_tooltip(gui, "Back to the preset as it is saved");
-    ang_gui_same_line(gui);
+    if (across > 2) ang_gui_same_line(gui);
     if (ang_gui_button(gui, "Save...", width, true)) ang_preset_dialog_open(viewer, false);
     ang_gui_tooltip(gui, "Saves what is shown as a preset of your own. Ctrl+P.");
     ang_gui_same_line(gui);

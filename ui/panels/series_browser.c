@@ -2,6 +2,7 @@
 
 #include "core/base/memory.h"
 #include "ui/panes/identity.h"
+#include "ui/panes/overlay.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
@@ -181,10 +182,10 @@ static void draw_picture(ang_viewer *viewer, int row, double x, double y, double
 }
 
 /* "shown", or what the loader thinks of it; each with a sign of its own. */
-static void draw_verdict(ang_viewer *viewer, int row, double x, double y) {
+static void draw_verdict(ang_viewer *viewer, int row, double x, double y, double room) {
     const ang_theme *theme = viewer->theme;
     ang_series_entry entry = viewer->series.list.entry[row];
-    char verdict[256], text[280];
+    char verdict[256], text[280], fitted[sizeof text + 4];
     bool shown = row == shown_row(viewer);
     if (shown) entry.warnings = viewer->study.warnings; /* reading has found more than looking */
     ang_series_entry_verdict(&entry, verdict, sizeof verdict);
@@ -196,7 +197,7 @@ static void draw_verdict(ang_viewer *viewer, int row, double x, double y) {
                   shown    ? theme->accent
                   : warned ? theme->warning
                            : theme->dim,
-                  text);
+                  ang_text_fitted(viewer->gui, text, room, fitted, sizeof fitted));
 }
 
 static void draw_row(ang_viewer *viewer, int row) {
@@ -212,7 +213,8 @@ static void draw_row(ang_viewer *viewer, int row) {
     double line = (side - ang_gui_text_height(gui, true)) / 3;
     char text[256];
     bool dated = series->dates && entry->date[0] && ang_identity_shown(viewer);
-    ang_gui_clip(gui, (ang_rect){x, rect.y, fmax(rect.x + rect.width - x - margin, 1), rect.height});
+    double room = fmax(rect.x + rect.width - x - margin, 1);
+    ang_gui_clip(gui, (ang_rect){x, rect.y, room, rect.height});
     ang_series_entry_title(entry, ang_identity_shown(viewer), text, sizeof text);
     ang_gui_write(gui, x, y - ang_gui_px(gui, 1), 0, false, false, entry->loadable ? theme->text : theme->dim, text);
     snprintf(text, sizeof text, "%d x %d, %d slice%s%s%s", entry->dims[0], entry->dims[1], entry->dims[2],
@@ -221,7 +223,7 @@ static void draw_row(ang_viewer *viewer, int row) {
     const double *mm = entry->spacing_mm;
     snprintf(text, sizeof text, "%.3g x %.3g x %.3g mm", mm[0], mm[1], mm[2]);
     ang_gui_write(gui, x, y + 2 * line, 0, true, false, theme->dim, entry->dims[0] > 0 ? text : "");
-    draw_verdict(viewer, row, x, y + 3 * line);
+    draw_verdict(viewer, row, x, y + 3 * line, room);
     ang_gui_unclip(gui);
     ang_series_entry_verdict(entry, text, sizeof text);
     if (canvas.hovered) ang_gui_tooltip(gui, text);

@@ -328,7 +328,9 @@ void ang_transfer_editor(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     ang_gui_heading(gui, "TRANSFER FUNCTION");
     const double strip = ang_gui_px(gui, 12), axis = ang_gui_px(gui, 18), inset = ang_gui_px(gui, 8);
-    double width = ang_gui_room(gui), tall = ang_gui_px(gui, 190);
+    /* Taller where there is room for it. */
+    double width = ang_gui_room(gui),
+           tall = fmin(fmax(round(0.24 * viewer->input.height), ang_gui_px(gui, 190)), ang_gui_px(gui, 300));
     ang_canvas canvas;
     ang_gui_canvas(gui, "transfer function", width, tall, &canvas);
     ang_rect whole = canvas.rect;

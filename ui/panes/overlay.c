@@ -58,8 +58,7 @@ void ang_pane_bar(ang_viewer *viewer, ang_rect rect, double mm_per_pixel, bool a
     ang_gui_write(gui, right, y - tick - line, 1, true, true, ANG_INK_TEXT, text);
 }
 
-/* The text as far as it fits into `room` pixels, with an ellipsis where something is left out. */
-static const char *fit(const ang_gui *gui, const char *text, double room, char *fitted, size_t size) {
+const char *ang_text_fitted(const ang_gui *gui, const char *text, double room, char *fitted, size_t size) {
     if (ang_gui_text_width(gui, text, true) <= room) return text;
     size_t length = strlen(text);
     do {
@@ -83,7 +82,7 @@ void ang_pane_corner(ang_viewer *viewer, ang_rect rect, int right, int bottom, i
     double room = rect.width / 2 - ang_gui_px(gui, 26);
     room -= right ? edge : x - rect.x;
     char fitted[256];
-    ang_gui_write(gui, x, y, right, true, true, ANG_INK_TEXT, fit(gui, text, room, fitted, sizeof fitted));
+    ang_gui_write(gui, x, y, right, true, true, ANG_INK_TEXT, ang_text_fitted(gui, text, room, fitted, sizeof fitted));
 }
 
 void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane) {
@@ -175,7 +174,8 @@ void ang_status_line(ang_viewer *viewer, ang_rect rect) {
     if (message[0]) {
         char fitted[sizeof viewer->message + 4];
         ang_ink ink = viewer->message_bad ? viewer->theme->bad : viewer->theme->accent;
-        ang_gui_write(gui, right, y, 1, true, false, ink, fit(gui, message, right - left, fitted, sizeof fitted));
+        ang_gui_write(gui, right, y, 1, true, false, ink,
+                      ang_text_fitted(gui, message, right - left, fitted, sizeof fitted));
     }
     ang_gui_area_end(gui);
 }
