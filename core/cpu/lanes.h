@@ -108,7 +108,11 @@ INLINE lanes lanes_sqrt(lanes x) {
 /* One bit a lane of a mask. */
 INLINE unsigned lanes_bits(lanes_int mask) {
 #if defined(__AVX512F__)
-    return _mm512_cmplt_epi32_mask((__m512i)mask, _mm512_setzero_si512());
+    __mmask16 shorter = _mm512_cmplt_epi32_mask((__m512i)mask, _mm512_setzero_si512());
+    /* Said to the compiler, since GCC 12 may store a mask's 16 bits and load 32 where it widens one by itself. */
+    unsigned bits;
+    __asm__("kmovw %1, %0" : "=r"(bits) : "k"(shorter));
+    return bits;
 #elif defined(__AVX2__)
     return (unsigned)_mm256_movemask_ps((__m256)mask);
 #elif defined(__SSE2__)
