@@ -16,7 +16,8 @@ import sys
 import tempfile
 import time
 
-from viewer_soak import soak
+sys.dont_write_bytecode = True
+from viewer_soak import soak  # beside this file
 
 
 class Viewer:
