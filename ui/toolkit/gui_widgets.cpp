@@ -158,13 +158,16 @@ bool ang_gui_number(ang_gui *gui, const char *name, double *value, double speed,
                     const char *format, double width) {
     next_width(width);
     if (gui->input.modifiers & ANG_MOD_SHIFT) speed /= 10;
-    /* ImGui makes a drag with Shift ten times faster. */
+    /* ImGui makes a drag with Shift ten times faster. Where the number is typed it asserts that both tell the same. */
     ImGuiIO &io = ImGui::GetIO();
     bool shift = io.KeyShift;
+    ImGuiKeyModFlags modifiers = io.KeyMods;
     io.KeyShift = false;
+    io.KeyMods &= ~ImGuiKeyModFlags_Shift;
     bool changed = ImGui::DragScalar(name, ImGuiDataType_Double, value, (float)speed, &low, &high, format,
                                      ImGuiSliderFlags_AlwaysClamp);
     io.KeyShift = shift;
+    io.KeyMods = modifiers;
     ang_gui_note_stop(gui);
     return changed;
 }
