@@ -74,7 +74,7 @@ def main():
     x, y = viewer.middle("volume")
     hands("key k", 1)
     save("crop")
-    hands("key alt+k key alt+x key w")
+    hands("key alt+k key w")
 
     # The editor: several points, what a range selects.
     plot = viewer.state()["editor"]["plot"]
@@ -88,6 +88,8 @@ def main():
     hands("key ctrl+k type plane", 1)
     save("commands")
     hands("key Escape key ctrl+o", 1.5)
+    viewer.hands(f"key ctrl+a type {os.path.dirname(os.path.abspath(phantom))}/")
+    time.sleep(1)
     save("files")
     hands("key Escape key F3", 2)
     save("series")
