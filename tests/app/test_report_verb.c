@@ -6,12 +6,16 @@
 /* after them */
 #include <cjson/cJSON.h>
 #include <cmocka.h>
+#include <glob.h>
 #include <math.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/app/program.h"
 
@@ -302,12 +306,33 @@ static void what_there_is_no_time_for_is_said(void **state) {
     cJSON_Delete(json);
 }
 
+static size_t count_files(const char *pattern) {
+    glob_t found = {0};
+    size_t count = glob(pattern, 0, NULL, &found) == 0 ? found.gl_pathc : 0;
+    globfree(&found);
+    return count;
+}
+
+/* Interrupts a command once there are `count` such files; its exit code. */
+static int interrupt_at(const char *pattern, size_t count, const char *command) {
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+        _exit(127);
+    }
+    for (int i = 0; i < 6000 && count_files(pattern) < count; i++) usleep(10000);
+    kill(child, SIGINT);
+    int status = 0;
+    assert_true(waitpid(child, &status, 0) == child && WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
 static void an_interruption_leaves_nothing_half_written(void **state) {
     (void)state;
-    int status = system("timeout --preserve-status -s INT 1.5 " ANG_PROGRAM " report " SCENE
-                        " --size 256x256 --method singlepass -o " TMP "/broken 2>/dev/null");
-    assert_true(WIFEXITED(status));
-    assert_int_equal(WEXITSTATUS(status), 130);
+    const char *command =
+        "exec " ANG_PROGRAM " report " SCENE " --size 256x256 --method singlepass -o " TMP "/broken 2>/dev/null";
+    assert_int_equal(interrupt_at(TMP "/broken/cache/*.rgba", 3, command), 130);
     assert_false(exists(TMP "/broken/report.html"));
     assert_int_equal(system("find " TMP "/broken -name '*.part' | grep -q ."), 256);
     cJSON *results = parse_report(TMP "/broken/cache/results.json");
