@@ -17,9 +17,7 @@ static const struct {
     format format;
 } extensions[] = {{".png", PNG}, {".tif", TIFF}, {".tiff", TIFF}, {".exr", EXR}, {".ppm", PPM}, {".pfm", PFM}};
 
-#ifdef ANG_WITH_OIIO
 static const char *oiio_name(format format) { return format == PNG ? "png" : format == TIFF ? "tiff" : "openexr"; }
-#endif
 
 static format format_of(const char *path) {
     const char *slash = strrchr(path, '/');
@@ -113,11 +111,9 @@ static bool encode_float(format format, const ang_image *image, const double bac
     bool good;
     if (format == PFM) {
         good = ang_pfm_encode(image->width, image->height, pixels, bytes, err);
-#ifdef ANG_WITH_OIIO
     } else if (format == EXR) {
         ang_pixels floats = {image->width, image->height, channels, true, pixels, state};
         good = ang_oiio_encode(oiio_name(EXR), &floats, bytes, err);
-#endif
     } else { /* .ppm has no alpha: the premultiplied colour is what a black screen behind it shows */
         good = ang_ppm_encode(image->width, image->height, pixels, bytes, err);
     }
@@ -131,13 +127,8 @@ static bool encode_bytes(format format, const ang_image *image, const double bac
     int channels = 0;
     if (!quantise(image, background, &pixels, &channels, err)) return false;
     ang_pixels quantised = {image->width, image->height, channels, false, pixels, state};
-    bool good = false;
-#ifdef ANG_WITH_PNG
-    if (format == PNG) good = ang_png_encode(&quantised, bytes, err);
-#endif
-#ifdef ANG_WITH_OIIO
-    if (format != PNG) good = ang_oiio_encode(oiio_name(format), &quantised, bytes, err);
-#endif
+    bool good = format == PNG ? ang_png_encode(&quantised, bytes, err)
+                              : ang_oiio_encode(oiio_name(format), &quantised, bytes, err);
     free(pixels);
     return good;
 }
@@ -172,11 +163,7 @@ bool ang_picture_read(const char *path, ang_image *out, ang_error *err) {
     format format = format_of(path);
     if (!refuse(path, format, true, err)) return false;
     if (format == PPM || format == PFM) return ang_portable_read(path, out, err);
-#ifdef ANG_WITH_OIIO
     return ang_oiio_read(path, oiio_name(format), out, err);
-#else
-    return false;
-#endif
 }
 
 char *ang_image_state(const char *path, ang_error *err) {
@@ -186,9 +173,5 @@ char *ang_image_state(const char *path, ang_error *err) {
         return NULL;
     }
     if (!refuse(path, format, true, err)) return NULL;
-#ifdef ANG_WITH_OIIO
     return ang_oiio_text_of(path, oiio_name(format), ANG_IMAGE_STATE, err);
-#else
-    return NULL;
-#endif
 }

@@ -1,0 +1,29 @@
+/* The encoders that a build lacks: they say so. image_io.c, which knows the file, refuses most formats first. */
+#include "io/image/encode.h"
+
+#ifndef ANG_WITH_PNG
+bool ang_png_encode(const ang_pixels *pixels, ang_bytes *out, ang_error *err) {
+    (void)pixels, (void)out;
+    return ang_fail(err, ANG_USAGE, "this build has no libpng (ANG_WITH_PNG)");
+}
+#endif
+
+#ifndef ANG_WITH_OIIO
+static bool refuse(ang_error *err) { return ang_fail(err, ANG_USAGE, "this build has no OpenImageIO (ANG_WITH_OIIO)"); }
+
+bool ang_oiio_encode(const char *format, const ang_pixels *pixels, ang_bytes *out, ang_error *err) {
+    (void)format, (void)pixels, (void)out;
+    return refuse(err);
+}
+
+bool ang_oiio_read(const char *path, const char *format, ang_image *out, ang_error *err) {
+    (void)path, (void)format, (void)out;
+    return refuse(err);
+}
+
+char *ang_oiio_text_of(const char *path, const char *format, const char *name, ang_error *err) {
+    (void)path, (void)format, (void)name;
+    refuse(err);
+    return NULL;
+}
+#endif
