@@ -120,13 +120,13 @@ static void copy_window(const ang_viewer_state *shown, ang_state *state) {
                               turn->y.z, turn->z.x, turn->z.y, turn->z.z};
     memcpy(state->planes_turn, turned, sizeof turned);
     state->voxels_shown = shown->voxels_shown;
-    state->crosshair = shown->crosshair;
+    state->crosshair = document->crosshair;
     state->crop_lower = document->crop_lower;
     state->crop_upper = document->crop_upper;
     state->measures = document->measures;
     for (int i = 0; i < ANG_STATE_SLICES; i++) {
-        state->slice[i].zoom = shown->slice[i].zoom;
-        memcpy(state->slice[i].pan_mm, shown->slice[i].pan_mm, sizeof state->slice[i].pan_mm);
+        state->slice[i].zoom = document->slice_view[i].zoom;
+        memcpy(state->slice[i].pan_mm, document->slice_view[i].pan_mm, sizeof state->slice[i].pan_mm);
     }
     snprintf(state->maximised, sizeof state->maximised, "%s",
              shown->maximised >= 0 ? pane_names[shown->maximised] : "");
@@ -219,11 +219,13 @@ static bool take_maximised(const ang_state *state, const char *file, ang_session
                     file, state->maximised);
 }
 
-static bool take_method(const ang_state *state, const char *file, ang_session *session, ang_error *err) {
+static bool take_method(const ang_state *state, const char *file, int *method, ang_error *err) {
     const char *name = state->method;
-    memcpy(session->method, name, sizeof session->method);
-    return !name[0] || strcmp(name, "auto") == 0 || ang_method_find(name) ||
-           ang_fail(err, ANG_USAGE, "%s: method is \"%s\", which there is none of", file, name);
+    *method = name[0] ? 0 : -1;
+    if (!name[0] || strcmp(name, "auto") == 0) return true;
+    for (int i = 0; ang_methods()[i]; i++)
+        if (strcmp(ang_methods()[i]->name, name) == 0) *method = i + 1;
+    return *method > 0 || ang_fail(err, ANG_USAGE, "%s: method is \"%s\", which there is none of", file, name);
 }
 
 /* To the last digit where it is a rotation as it stands: mending one again would change that. */
@@ -240,8 +242,7 @@ static bool take_turn(const ang_state *state, const char *file, ang_turn *turn, 
 
 bool ang_view_session_of(const ang_state *state, const char *file, const ang_study *study, ang_session *session,
                          ang_error *err) {
-    *session = (ang_session){
-        .crosshair = state->crosshair, .corner_text = state->corner_text, .crosshair_lines = state->crosshair_lines};
+    *session = (ang_session){.corner_text = state->corner_text, .crosshair_lines = state->crosshair_lines};
     ang_document *document = &session->document;
     document->iso_hu = 300;
     document->window_centre = document->window_width = NAN;
@@ -251,19 +252,20 @@ bool ang_view_session_of(const ang_state *state, const char *file, const ang_stu
     document->stretch = state->stretch;
     document->slab = state->slab;
     document->slab_mm = state->slab_mm;
+    document->crosshair = state->crosshair;
     if (isfinite(state->window_centre) && isfinite(state->window_width)) {
         document->window_centre = state->window_centre;
         document->window_width = state->window_width;
     }
     for (int i = 0; i < ANG_ORIENTATIONS; i++) {
-        session->slice[i].zoom = state->slice[i].zoom;
-        memcpy(session->slice[i].pan_mm, state->slice[i].pan_mm, sizeof session->slice[i].pan_mm);
+        document->slice_view[i].zoom = state->slice[i].zoom;
+        memcpy(document->slice_view[i].pan_mm, state->slice[i].pan_mm, sizeof document->slice_view[i].pan_mm);
     }
     memcpy(session->tool, state->tool, sizeof session->tool);
     session->voxels_shown = state->voxels_shown;
     return take_picture(state, file, study, document, err) && take_turn(state, file, &document->turn, err) &&
            take_marks(state, &document->measures, err) && take_maximised(state, file, session, err) &&
-           take_method(state, file, session, err);
+           take_method(state, file, &document->method, err);
 }
 
 static void add_slices(cJSON *live, const ang_viewer_state *shown) {

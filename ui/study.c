@@ -30,7 +30,7 @@ double ang_viewer_hu_at(const ang_viewer *viewer, ang_vec3 mm) {
 
 void ang_viewer_point_at(ang_viewer *viewer, ang_vec3 mm) {
     for (int i = 0; i < ANG_ORIENTATIONS; i++) mm = ang_slice_move(&viewer->range[i], mm, 0);
-    viewer->crosshair = mm;
+    viewer->document.crosshair = mm;
 }
 
 void ang_viewer_file_window(const ang_viewer *viewer, double *centre, double *width) {
@@ -78,7 +78,9 @@ void ang_study_show(ang_viewer *viewer, const ang_study *study, const char *want
     viewer->ready = true;
     memcpy(viewer->path, viewer->asked, sizeof viewer->path);
     ang_document *document = &viewer->document;
+    int method = document->method; /* stays from study to study */
     memset(document, 0, sizeof *document);
+    document->method = method;
     document->view = ang_viewer_first_view;
     document->iso_hu = 300;
     ang_volume_box(study->volume, &document->crop_lower, &document->crop_upper);
@@ -95,9 +97,9 @@ void ang_study_show(ang_viewer *viewer, const ang_study *study, const char *want
     }
     ang_viewer_choose_preset(viewer, preset);
     ang_viewer_file_window(viewer, &document->window_centre, &document->window_width);
-    for (int i = 0; i < ANG_ORIENTATIONS; i++) viewer->slice[i].view = ang_slice_view_default;
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) viewer->document.slice_view[i] = ang_slice_view_default;
     ang_viewer_point_at(viewer, ang_volume_centre(study->volume));
     ang_session_apply(viewer);
-    viewer->cutting.pivot = viewer->crosshair;
+    viewer->cutting.pivot = viewer->document.crosshair;
     ang_history_note(&viewer->history, document, 0);
 }

@@ -99,7 +99,6 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .study = viewer->ready ? &viewer->study : NULL,
                                 .path = viewer->path,
                                 .document = &viewer->document,
-                                .crosshair = viewer->crosshair,
                                 .cine = &viewer->cine,
                                 .hovered = viewer->hovered,
                                 .hovered_hu = viewer->hovered_hu,
@@ -144,10 +143,8 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
     state->saving.problem = dialog->problem;
     state->saving.replaces = dialog->asked;
     for (int i = 0; i < ANG_ORIENTATIONS && viewer->ready; i++) {
-        state->slice[i].index = ang_slice_index(&viewer->range[i], viewer->crosshair);
+        state->slice[i].index = ang_slice_index(&viewer->range[i], viewer->document.crosshair);
         state->slice[i].count = viewer->range[i].count;
-        state->slice[i].zoom = viewer->slice[i].view.zoom;
-        memcpy(state->slice[i].pan_mm, viewer->slice[i].view.pan_mm, sizeof state->slice[i].pan_mm);
         state->slice[i].axes = ang_slice_axes_of(&viewer->turn, (ang_orientation)i);
         state->slice[i].mm_per_pixel = ang_vec3_length(viewer->slice[i].plane.step_x);
         state->pane[i] = viewer->pane[i];

@@ -44,10 +44,8 @@ typedef struct ang_viewer_state {
     const ang_study *study;
     const char *path; /* that the study was read from; "": no single one */
     const ang_document *document;
-    ang_vec3 crosshair; /* LPS mm */
     struct {
         int index, count;
-        double zoom, pan_mm[2];
         ang_slice_axes axes;
         double mm_per_pixel;
     } slice[ANG_ORIENTATIONS];

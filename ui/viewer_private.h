@@ -46,8 +46,7 @@ struct ang_viewer {
     ang_history history;
     ang_document chosen;    /* as the preset was when it was chosen, to compare with */
     ang_preset *own_preset; /* of the host for this study; NULL: none */
-    ang_vec3 crosshair;
-    ang_turn turn; /* the document's when `range` and the slices' views were last brought up to it */
+    ang_turn turn;          /* the document's when `range` and the slices' views were last brought up to it */
     ang_slice_range range[ANG_ORIENTATIONS];
     ang_slice_picture slice[ANG_ORIENTATIONS];
     ang_volume_picture volume;

@@ -241,7 +241,12 @@ static void a_plane_cuts_what_is_before_the_crosshair(void **state) {
     expect_number("clip_plane.normal.1", -turned.y, 1e-6);
     hands("key alt+k");
     expect_number("clip_plane.normal.1", 0, 0);
-    hands("key ctrl+z key ctrl+z key ctrl+z");
+    hands("key ctrl+z key ctrl+z");
+    expect_number("clip_plane.normal.1", turned.y, 1e-6);
+    hands("key ctrl+z"); /* the click */
+    expect_number("crosshair_mm.0", crosshair.x, 0);
+    expect_number("clip_plane.normal.1", turned.y, 1e-6);
+    hands("key ctrl+z");
     expect_number("clip_plane.normal.1", normal.y, 1e-12);
 }
 

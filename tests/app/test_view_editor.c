@@ -103,6 +103,8 @@ static void keys_alone_edit(void **state) {
     double slice = number_now("axial.slice");
     hands("key --delay 60 Up");
     expect_number("axial.slice", slice + 1, 0);
+    hands("key --delay 60 ctrl+z");
+    expect_number("axial.slice", slice, 0);
     hands("key --delay 60 ctrl+z ctrl+z ctrl+z ctrl+z ctrl+z ctrl+z ctrl+z");
     expect_number("preset.points.3.hu", hu, 0);
 }

@@ -211,19 +211,25 @@ static void turns_are_undone_and_cancelled(void **state) {
     (void)state;
     need_window();
     cJSON *before = read_state();
-    double turned = number_at(before, "axial.turned_deg");
+    double turned = number_at(before, "axial.turned_deg"), across = number_at(before, "crosshair_mm.0");
     cJSON_Delete(before);
+    hands("key ctrl+z"); /* the clicks and turns of the wheel since are one step */
+    for (int i = 0; i < 200 && fabs(number_now("crosshair_mm.0") - across) <= 5; i++) nap(20);
+    assert_true(fabs(number_now("crosshair_mm.0") - across) > 5);
+    expect_number("coronal.lean_deg", turned, 1e-9);
     hands("key ctrl+z");
     expect_number("coronal.lean_deg", 0, 0);
     hands("key ctrl+shift+z");
     expect_number("coronal.lean_deg", turned, 1e-9);
+    hands("key ctrl+shift+z");
+    expect_number("crosshair_mm.0", across, 0);
     hands("key ctrl+r");
     expect_number("coronal.lean_deg", 0, 0);
     expect_number("sagittal.lean_deg", 0, 0);
     /* Slices pass through voxels again. */
     cJSON *straight = read_state();
-    double across = (number_at(straight, "crosshair_mm.0") - 1.2) / 2.4;
-    assert_close(across, round(across), 1e-6);
+    double slices = (number_at(straight, "crosshair_mm.0") - 1.2) / 2.4;
+    assert_close(slices, round(slices), 1e-6);
     cJSON_Delete(straight);
     lead(20, "");
     nap(200);

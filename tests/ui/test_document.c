@@ -253,6 +253,70 @@ static void one_gesture_is_one_step(void **state) {
     ang_history_clear(&history);
 }
 
+/* Scrolling for however long is one step; after an undo it is none and leaves what can be redone. */
+static void looking_around_is_one_step(void **state) {
+    (void)state;
+    ang_history history = {0};
+    ang_document document;
+    start(&document);
+    ang_history_note(&history, &document, 0);
+    document.points[3].hu = 600;
+    ang_history_note(&history, &document, 1);
+    for (int i = 1; i <= 50; i++) {
+        document.crosshair.z = i;
+        ang_history_note(&history, &document, 1 + 3 * i);
+    }
+    document.points[3].hu = 700;
+    ang_history_note(&history, &document, 200);
+    assert_true(ang_history_undo(&history, &document));
+    assert_close(document.points[3].hu, 600, 0);
+    assert_close(document.crosshair.z, 50, 0);
+    document.crosshair.z = 7;
+    ang_history_note(&history, &document, 201);
+    assert_true(ang_history_redo(&history, &document));
+    assert_close(document.points[3].hu, 700, 0);
+    assert_true(ang_history_undo(&history, &document));
+    assert_close(document.crosshair.z, 7, 0);
+    assert_true(ang_history_undo(&history, &document));
+    assert_close(document.crosshair.z, 0, 0);
+    assert_close(document.points[3].hu, 600, 0);
+    assert_true(ang_history_undo(&history, &document));
+    assert_false(ang_history_undo(&history, &document));
+    ang_history_clear(&history);
+}
+
+/* Zoom and pan of slices go with those of the volume; the method is a step. */
+static void slices_and_method_are_undone(void **state) {
+    (void)state;
+    ang_history history = {0};
+    ang_document document;
+    start(&document);
+    ang_history_note(&history, &document, 0);
+    for (int i = 1; i <= 3; i++) {
+        document.slice_view[1].zoom = 1 + i;
+        document.slice_view[2].pan_mm[0] = 5 * i;
+        document.crosshair.x = i;
+        ang_history_note(&history, &document, 0.3 * i);
+    }
+    document.method = 2;
+    ang_history_note(&history, &document, 1);
+    document.slice_view[0].zoom = 9;
+    ang_history_note(&history, &document, 1.1);
+    assert_true(ang_history_undo(&history, &document));
+    assert_int_equal(document.method, 2);
+    assert_true(document.slice_view[0].zoom < 9);
+    assert_true(ang_history_undo(&history, &document));
+    assert_int_equal(document.method, 0);
+    assert_close(document.slice_view[1].zoom, 4, 0);
+    assert_close(document.slice_view[2].pan_mm[0], 15, 0);
+    assert_true(ang_history_undo(&history, &document));
+    assert_true(document.slice_view[1].zoom < 4);
+    assert_close(document.slice_view[2].pan_mm[0], 0, 0);
+    assert_close(document.crosshair.x, 0, 0);
+    assert_false(ang_history_undo(&history, &document));
+    ang_history_clear(&history);
+}
+
 static void old_states_are_forgotten_not_new_ones(void **state) {
     (void)state;
     ang_history history = {0};
@@ -281,6 +345,8 @@ int main(void) {
         cmocka_unit_test(renderings_are_told_apart),
         cmocka_unit_test(undo_and_redo_walk_the_states),
         cmocka_unit_test(one_gesture_is_one_step),
+        cmocka_unit_test(looking_around_is_one_step),
+        cmocka_unit_test(slices_and_method_are_undone),
         cmocka_unit_test(old_states_are_forgotten_not_new_ones),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

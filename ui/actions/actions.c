@@ -49,15 +49,17 @@ static void quit(ang_viewer *viewer, int argument) {
     ang_window_close(viewer->window);
 }
 
+static void stepped(ang_viewer *viewer) {
+    ang_planes_take(viewer);
+    viewer->point = -1;
+}
 static void undo(ang_viewer *viewer, int argument) {
     (void)argument;
-    ang_history_undo(&viewer->history, &viewer->document);
-    viewer->point = -1;
+    if (ang_history_undo(&viewer->history, &viewer->document)) stepped(viewer);
 }
 static void redo(ang_viewer *viewer, int argument) {
     (void)argument;
-    ang_history_redo(&viewer->history, &viewer->document);
-    viewer->point = -1;
+    if (ang_history_redo(&viewer->history, &viewer->document)) stepped(viewer);
 }
 
 static void choose_tool(ang_viewer *viewer, int tool) {

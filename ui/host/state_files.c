@@ -11,15 +11,17 @@
 /* To the last digit where it is a place for it as it stands. */
 static void point_at(ang_viewer *viewer, ang_vec3 crosshair) {
     ang_viewer_point_at(viewer, crosshair);
-    if (ang_vec3_length(ang_vec3_sub(viewer->crosshair, crosshair)) < 1e-9) viewer->crosshair = crosshair;
+    if (ang_vec3_length(ang_vec3_sub(viewer->document.crosshair, crosshair)) < 1e-9)
+        viewer->document.crosshair = crosshair;
 }
 
 static void restore(ang_viewer *viewer, const ang_session *session) {
-    viewer->document = session->document;
+    const ang_document *document = &session->document, before = viewer->document;
+    viewer->document = *document;
+    if (document->method < 0) viewer->document.method = before.method;
     viewer->voxels_shown = session->voxels_shown;
     ang_planes_take(viewer);
-    for (int i = 0; i < ANG_ORIENTATIONS; i++) viewer->slice[i].view = session->slice[i];
-    if (isfinite(session->crosshair.x)) point_at(viewer, session->crosshair);
+    point_at(viewer, isfinite(document->crosshair.x) ? document->crosshair : before.crosshair);
     viewer->maximised = session->maximised;
     viewer->corner_text = session->corner_text;
     viewer->crosshair_shown = session->crosshair_lines;
@@ -28,9 +30,6 @@ static void restore(ang_viewer *viewer, const ang_session *session) {
     if (tool < ANG_TOOLS) viewer->tool = (ang_tool)tool;
     if (session->tool[0] && tool == ANG_TOOLS)
         ang_viewer_say(viewer, true, "The state has a tool \"%s\", which this program does not", session->tool);
-    if (strcmp(session->method, "auto") == 0) ang_volume_set_method(viewer, 0);
-    for (int i = 0; ang_methods()[i]; i++)
-        if (strcmp(ang_methods()[i]->name, session->method) == 0) ang_volume_set_method(viewer, i + 1);
 }
 
 void ang_session_apply(ang_viewer *viewer) {

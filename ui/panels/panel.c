@@ -43,9 +43,9 @@ static void rendering(ang_viewer *viewer) {
         indices[count++] = i + 1;
     }
     for (int i = 0; i < count; i++)
-        if (indices[i] == viewer->volume.choice) chosen = i;
+        if (indices[i] == document->method) chosen = i;
     ang_gui_label(gui, "Method");
-    if (ang_gui_choice(gui, "##method", names, count, &chosen, 0)) ang_volume_set_method(viewer, indices[chosen]);
+    if (ang_gui_choice(gui, "##method", names, count, &chosen, 0)) document->method = indices[chosen];
     if (viewer->volume.method) ang_gui_tooltip(gui, viewer->volume.method->title);
 }
 

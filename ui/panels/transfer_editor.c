@@ -103,7 +103,7 @@ static ang_editing_drag press(ang_viewer *viewer, const ang_plot *plot, const an
 
 static void begin(ang_viewer *viewer, const ang_plot *plot, const ang_canvas *canvas, double x, double y) {
     ang_editing *editing = &viewer->editing;
-    viewer->gesture = (ang_gesture){.pane = ANG_PANES, .before = viewer->document, .crosshair = viewer->crosshair};
+    viewer->gesture = (ang_gesture){.pane = ANG_PANES, .before = viewer->document};
     editing->focused = true;
     editing->before = editing->chosen;
     editing->had_range = editing->has_range;

@@ -49,7 +49,7 @@ static double crisp(const ang_viewer *viewer, double at, double slope) {
 static cut cut_of(const ang_viewer *viewer, ang_pane plane, const ang_slice_frame *frame, double beside_mm) {
     cut cut = {.plane = plane};
     ang_slice_cut(frame, &viewer->turn, (ang_orientation)plane, cut.direction);
-    ang_slice_locate(frame, viewer->crosshair, &cut.x, &cut.y);
+    ang_slice_locate(frame, viewer->document.crosshair, &cut.x, &cut.y);
     cut.x = crisp(viewer, cut.x - cut.direction[1] * beside_mm / frame->mm_per_pixel, cut.direction[0]);
     cut.y = crisp(viewer, cut.y + cut.direction[0] * beside_mm / frame->mm_per_pixel, cut.direction[1]);
     clip(&cut, (double[]){frame->width, frame->height}, ang_gui_px(viewer->gui, edge));
@@ -92,7 +92,7 @@ void ang_crosshair_turn(ang_viewer *viewer, ang_pane pane, const ang_slice_frame
     ang_gesture *gesture = &viewer->gesture;
     ang_orientation orientation = (ang_orientation)pane;
     double x, y;
-    ang_slice_locate(frame, viewer->crosshair, &x, &y);
+    ang_slice_locate(frame, viewer->document.crosshair, &x, &y);
     double now = atan2(canvas->y - y, canvas->x - x);
     double before = atan2(canvas->y - canvas->dy - y, canvas->x - canvas->dx - x);
     bool fine = (canvas->modifiers & ANG_MOD_SHIFT) != 0;

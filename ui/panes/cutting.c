@@ -148,8 +148,8 @@ void ang_crop_reset(ang_viewer *viewer, int argument) {
 void ang_clip_face_viewer(ang_viewer *viewer, int argument) {
     (void)argument;
     ang_camera camera = ang_camera_for(viewer->study.volume, &viewer->document.view);
-    viewer->cutting.pivot = viewer->crosshair;
-    viewer->document.clip = ang_clip_plane_through(viewer->crosshair, ang_vec3_scale(camera.forward, -1));
+    viewer->cutting.pivot = viewer->document.crosshair;
+    viewer->document.clip = ang_clip_plane_through(viewer->document.crosshair, ang_vec3_scale(camera.forward, -1));
 }
 
 void ang_clip_toggle(ang_viewer *viewer, int argument) {

@@ -49,7 +49,7 @@ static void move_crosshair(ang_viewer *viewer, ang_orientation orientation, int 
         double along = fabs(ang_vec3_dot(viewer->range[i].normal, way));
         if (along > most) most = along, step = viewer->range[i].step;
     }
-    ang_viewer_point_at(viewer, ang_vec3_add(viewer->crosshair, ang_vec3_scale(way, step)));
+    ang_viewer_point_at(viewer, ang_vec3_add(viewer->document.crosshair, ang_vec3_scale(way, step)));
 }
 
 static void pan(ang_viewer *viewer, int right, int down) {
@@ -59,7 +59,7 @@ static void pan(ang_viewer *viewer, int right, int down) {
         ang_volume_pan(viewer, right * pixels, down * pixels);
         return;
     }
-    ang_slice_view *view = &viewer->slice[pane].view;
+    ang_slice_view *view = &viewer->document.slice_view[pane];
     ang_slice_frame frame = ang_slice_frame_of(viewer, (ang_orientation)pane, viewer->pane[pane]);
     view->pan_mm[0] -= right * pixels * frame.mm_per_pixel;
     view->pan_mm[1] -= down * pixels * frame.mm_per_pixel;
@@ -92,7 +92,7 @@ void ang_focus_zoom(ang_viewer *viewer, int steps) {
         return;
     }
     ang_rect rect = viewer->pane[pane];
-    ang_slice_view *view = &viewer->slice[pane].view;
+    ang_slice_view *view = &viewer->document.slice_view[pane];
     ang_slice_frame frame = ang_slice_frame_of(viewer, (ang_orientation)pane, rect);
     ang_slice_zoom(view, &frame, rect.width / 2, rect.height / 2, factor);
 }
@@ -110,7 +110,7 @@ void ang_focus_reset(ang_viewer *viewer, int all) {
         if (i == ANG_PANE_VOLUME)
             viewer->document.view = ang_viewer_first_view;
         else
-            viewer->slice[i].view = ang_slice_view_default;
+            viewer->document.slice_view[i] = ang_slice_view_default;
     }
 }
 

@@ -3,7 +3,6 @@
 #define ANG_UI_GESTURE_H
 
 #include "ui/state/document.h"
-#include "ui/state/slice_geometry.h"
 
 typedef struct ang_viewer ang_viewer;
 
@@ -11,8 +10,6 @@ typedef struct ang_viewer ang_viewer;
 typedef struct ang_gesture {
     int pane; /* ang_pane, -1: none */
     ang_document before;
-    ang_vec3 crosshair;
-    ang_slice_view view;
     bool bends;        /* the preset is shifted and stretched */
     bool strengthens;  /* its opacity is */
     bool turns;        /* the slice planes are turned */

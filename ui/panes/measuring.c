@@ -176,11 +176,11 @@ void ang_measuring_place(ang_viewer *viewer, int argument) {
     ang_measuring *measuring = &viewer->measuring;
     ang_pane pane = (ang_pane)viewer->focus.pane;
     if (measuring->placed > 0 && measuring->pane == (int)pane) {
-        place(viewer, viewer->crosshair);
+        place(viewer, viewer->document.crosshair);
         return;
     }
     ang_slice_frame frame = ang_slice_frame_of(viewer, (ang_orientation)pane, viewer->pane[pane]);
-    begin(viewer, pane, viewer->crosshair, &frame.axes);
+    begin(viewer, pane, viewer->document.crosshair, &frame.axes);
     measuring->by_keys = true;
 }
 
@@ -234,7 +234,7 @@ void ang_measuring_slice(ang_viewer *viewer, ang_pane pane, const ang_canvas *ca
         measuring->grabbed = ANG_MARK_NOTHING;
     }
     for (int i = measuring->placed; measuring->placed > 0 && making && i < ANG_MEASURE_POINTS; i++)
-        measuring->pending.point[i] = measuring->by_keys ? viewer->crosshair : pointed(canvas, frame);
+        measuring->pending.point[i] = measuring->by_keys ? viewer->document.crosshair : pointed(canvas, frame);
 }
 
 void ang_measuring_volume(ang_viewer *viewer, const ang_canvas *canvas) {

@@ -133,9 +133,9 @@ static void status_cells(status *status) {
     const char *unit = viewer->study.hounsfield ? "HU" : "";
     char text[256];
     bool hovering = viewer->hovered < ANG_PANE_VOLUME;
-    write_place(hovering ? viewer->hovered_mm : viewer->crosshair, text, sizeof text);
+    write_place(hovering ? viewer->hovered_mm : viewer->document.crosshair, text, sizeof text);
     cell(status, 200, false, text);
-    double hu = hovering ? viewer->hovered_hu : ang_viewer_hu_at(viewer, viewer->crosshair);
+    double hu = hovering ? viewer->hovered_hu : ang_viewer_hu_at(viewer, viewer->document.crosshair);
     if (isnan(hu))
         snprintf(text, sizeof text, "outside");
     else

@@ -16,10 +16,10 @@ void ang_planes_follow(ang_viewer *viewer) {
     for (int i = 0; i < ANG_ORIENTATIONS; i++) {
         ang_slice_axes before = ang_slice_axes_of(&viewer->turn, (ang_orientation)i);
         ang_slice_axes after = ang_slice_axes_of(turn, (ang_orientation)i);
-        ang_slice_keep_place(&viewer->slice[i].view, volume, viewer->crosshair, &before, &after);
+        ang_slice_keep_place(&viewer->document.slice_view[i], volume, viewer->document.crosshair, &before, &after);
     }
     ang_planes_take(viewer);
-    ang_viewer_point_at(viewer, viewer->crosshair);
+    ang_viewer_point_at(viewer, viewer->document.crosshair);
 }
 
 void ang_planes_turn(ang_viewer *viewer, int degrees) {

@@ -50,8 +50,8 @@ void ang_playing_step(ang_viewer *viewer) {
         return;
     }
     const ang_slice_range *range = &viewer->range[cine->pane];
-    int index = ang_cine_advance(cine, ang_slice_index(range, viewer->crosshair), range->count, steps);
-    viewer->crosshair = ang_slice_place(range, viewer->crosshair, index);
+    int index = ang_cine_advance(cine, ang_slice_index(range, viewer->document.crosshair), range->count, steps);
+    viewer->document.crosshair = ang_slice_place(range, viewer->document.crosshair, index);
 }
 
 double ang_playing_next_in(const ang_viewer *viewer) {

@@ -77,7 +77,7 @@ void ang_slice_picture_clear(ang_viewer *viewer, ang_slice_picture *picture) {
     ang_painter_forget(viewer->painter, &picture->mark.texture);
     free(picture->hu);
     free(picture->rgba);
-    *picture = (ang_slice_picture){.view = ang_slice_view_default};
+    *picture = (ang_slice_picture){0};
 }
 
 bool ang_slice_image(ang_viewer *viewer, ang_orientation orientation, ang_image *image, ang_error *err) {
@@ -91,8 +91,9 @@ bool ang_slice_image(ang_viewer *viewer, ang_orientation orientation, ang_image 
 }
 
 ang_slice_frame ang_slice_frame_of(const ang_viewer *viewer, ang_orientation orientation, ang_rect rect) {
-    return ang_slice_frame_make(viewer->study.volume, &viewer->turn, orientation, &viewer->slice[orientation].view,
-                                viewer->crosshair, (int)rect.width, (int)rect.height);
+    return ang_slice_frame_make(viewer->study.volume, &viewer->turn, orientation,
+                                &viewer->document.slice_view[orientation], viewer->document.crosshair, (int)rect.width,
+                                (int)rect.height);
 }
 
 double ang_slice_zoom_percent(const ang_viewer *viewer, ang_pane pane) {
@@ -102,7 +103,7 @@ double ang_slice_zoom_percent(const ang_viewer *viewer, ang_pane pane) {
 
 void ang_slice_scroll(ang_viewer *viewer, ang_orientation orientation, int slices) {
     ang_playing_stop(viewer);
-    viewer->crosshair = ang_slice_move(&viewer->range[orientation], viewer->crosshair, slices);
+    viewer->document.crosshair = ang_slice_move(&viewer->range[orientation], viewer->document.crosshair, slices);
 }
 
 /* To the right widens the window, up brightens; Shift: ten times finer. */
@@ -124,12 +125,12 @@ static void drag_slices(ang_viewer *viewer, ang_orientation orientation, const a
     if (canvas->modifiers & ANG_MOD_SHIFT) pixels *= 10;
     gesture->slices -= canvas->dy / pixels;
     ang_playing_stop(viewer);
-    viewer->crosshair = ang_slice_move(range, gesture->crosshair, (int)round(gesture->slices));
+    viewer->document.crosshair = ang_slice_move(range, gesture->before.crosshair, (int)round(gesture->slices));
 }
 
 static void drag(ang_viewer *viewer, ang_orientation orientation, const ang_canvas *canvas,
                  const ang_slice_frame *frame) {
-    ang_slice_view *view = &viewer->slice[orientation].view;
+    ang_slice_view *view = &viewer->document.slice_view[orientation];
     const ang_volume *volume = viewer->study.volume;
     bool panning =
         canvas->held == ANG_BUTTON_MIDDLE ||
@@ -155,19 +156,17 @@ static void drag(ang_viewer *viewer, ang_orientation orientation, const ang_canv
 static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, const ang_slice_frame *frame) {
     ang_orientation orientation = (ang_orientation)pane;
     ang_gesture *gesture = &viewer->gesture;
-    ang_vec3 before = gesture->crosshair;
+    ang_vec3 before = gesture->before.crosshair;
     if (canvas->pressed)
         *gesture = (ang_gesture){.pane = (int)pane,
                                  .before = viewer->document,
-                                 .crosshair = viewer->crosshair,
-                                 .view = viewer->slice[orientation].view,
                                  .turns = canvas->held == ANG_BUTTON_LEFT && !viewer->input.key[ANG_KEY_SPACE] &&
                                           ang_crosshair_handle_at(viewer, pane, frame, canvas->x, canvas->y)};
     ang_measuring_slice(viewer, pane, canvas, frame);
     if (canvas->double_clicked) {
         viewer->maximised = viewer->maximised == (int)pane ? -1 : (int)pane;
         gesture->cancelled = true;
-        viewer->crosshair = before; /* the first of the two clicks moved it */
+        viewer->document.crosshair = before; /* the first of the two clicks moved it */
         return;
     }
     bool ours = gesture->pane == (int)pane && !gesture->cancelled;
@@ -180,7 +179,7 @@ static void handle(ang_viewer *viewer, ang_pane pane, const ang_canvas *canvas, 
     if (ours && !cuts && points && !gesture->turns)
         ang_viewer_point_at(viewer, ang_slice_at(frame, canvas->start_x, canvas->start_y));
     if (canvas->wheel == 0) return;
-    ang_slice_view *view = &viewer->slice[orientation].view;
+    ang_slice_view *view = &viewer->document.slice_view[orientation];
     if (canvas->modifiers & ANG_MOD_CONTROL) {
         ang_slice_zoom(view, frame, canvas->x, canvas->y, pow(1.15, canvas->wheel));
         ang_slice_keep_inside(view, viewer->study.volume, &frame->axes);
@@ -199,9 +198,9 @@ static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     snprintf(text, sizeof text, "%s, oblique %.1f\xc2\xb0", names[pane], lean);
     ang_pane_corner(viewer, rect, 0, 0, 0, lean > 0 ? text : names[pane]);
     ang_identity_write(viewer, rect);
-    double along = ang_vec3_dot(viewer->crosshair, range->normal);
+    double along = ang_vec3_dot(viewer->document.crosshair, range->normal);
     ang_letters side = ang_letters_make(ang_vec3_scale(range->normal, along < 0 ? -1 : 1));
-    snprintf(text, sizeof text, "%d / %d", ang_slice_index(range, viewer->crosshair) + 1, range->count);
+    snprintf(text, sizeof text, "%d / %d", ang_slice_index(range, viewer->document.crosshair) + 1, range->count);
     ang_pane_corner(viewer, rect, 0, 1, 1, text);
     snprintf(text, sizeof text, "%s %.1f mm", side.text, fabs(along));
     ang_pane_corner(viewer, rect, 0, 1, 0, text);

@@ -11,7 +11,6 @@ typedef struct ang_viewer ang_viewer;
 
 /* A slice's picture, kept until what it shows changes. */
 struct ang_slice_picture {
-    ang_slice_view view;
     ang_reslice_plane plane; /* of `hu` */
     double centre, width;    /* of the texture */
     float *hu;

@@ -53,7 +53,8 @@ static void turn(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
     ang_view *view = &viewer->document.view;
     double degrees = 180 / fmin(rect.width, rect.height);
     if (viewer->turns_about_crosshair)
-        ang_view_turn_about(view, viewer->study.volume, viewer->crosshair, canvas->dx * degrees, canvas->dy * degrees);
+        ang_view_turn_about(view, viewer->study.volume, viewer->document.crosshair, canvas->dx * degrees,
+                            canvas->dy * degrees);
     else
         ang_view_turn(view, canvas->dx * degrees, canvas->dy * degrees);
 }
@@ -82,18 +83,17 @@ static ang_cutting_pane cutting_pane(const ang_viewer *viewer, ang_rect rect) {
 
 static void handle(ang_viewer *viewer, const ang_canvas *canvas, ang_rect rect) {
     ang_gesture *gesture = &viewer->gesture;
-    ang_vec3 before = gesture->crosshair;
+    ang_vec3 before = gesture->before.crosshair;
     if (canvas->pressed)
         *gesture = (ang_gesture){.pane = ANG_PANE_VOLUME,
                                  .before = viewer->document,
-                                 .crosshair = viewer->crosshair,
                                  .bends = canvas->modifiers == ANG_MOD_SHIFT,
                                  .strengthens = canvas->modifiers == (ANG_MOD_SHIFT | ANG_MOD_CONTROL)};
     ang_measuring_volume(viewer, canvas);
     if (canvas->double_clicked) {
         viewer->maximised = viewer->maximised == ANG_PANE_VOLUME ? -1 : ANG_PANE_VOLUME;
         gesture->cancelled = true;
-        viewer->crosshair = before; /* the first of the two clicks moved it */
+        viewer->document.crosshair = before; /* the first of the two clicks moved it */
         return;
     }
     bool ours = gesture->pane == ANG_PANE_VOLUME && !gesture->cancelled;

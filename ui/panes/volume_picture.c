@@ -47,7 +47,6 @@ static void drop_renderer(ang_volume_picture *volume) {
 
 void ang_volume_picture_clear(ang_viewer *viewer) {
     ang_volume_picture *volume = &viewer->volume;
-    int choice = volume->choice;
     unsigned version = volume->version;
     drop_renderer(volume);
     ang_kept_picture_clear(viewer);
@@ -57,19 +56,20 @@ void ang_volume_picture_clear(ang_viewer *viewer) {
     ang_progressive_clear(&volume->refining.picture);
     free(volume->rgba);
     ang_painter_forget(viewer->painter, &volume->texture);
-    *volume = (ang_volume_picture){.choice = choice, .version = version};
+    *volume = (ang_volume_picture){.version = version};
 }
 
 const char *ang_volume_method_choice(const ang_viewer *viewer) {
-    return viewer->volume.choice > 0 ? ang_methods()[viewer->volume.choice - 1]->name : "auto";
+    int method = viewer->document.method;
+    return method > 0 ? ang_methods()[method - 1]->name : "auto";
 }
 
-void ang_volume_set_method(ang_viewer *viewer, int choice) {
+static void follow_method(ang_viewer *viewer) {
     ang_volume_picture *volume = &viewer->volume;
-    if (choice == volume->choice) return;
+    if (viewer->document.method == volume->choice) return;
     drop_renderer(volume);
     ang_kept_picture_clear(viewer);
-    volume->choice = choice;
+    volume->choice = viewer->document.method;
     volume->shown = volume->refining.begun = false;
 }
 
@@ -207,6 +207,7 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     ang_volume_picture *volume = &viewer->volume;
     const ang_document *document = ang_viewer_shown_document(viewer);
     if (width < 1 || height < 1) return;
+    follow_method(viewer);
     ang_kept_picture_turn(viewer, document, width, height);
     bool current = volume->shown && volume->size[0] == width && volume->size[1] == height &&
                    ang_document_same_rendering(&volume->document, document);

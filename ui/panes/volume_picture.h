@@ -22,7 +22,7 @@ typedef struct ang_refining {
 typedef struct ang_volume_picture {
     const ang_method *method; /* of `renderer` */
     ang_renderer *renderer;
-    int choice; /* 0: auto, else 1 + index into ang_methods */
+    int choice; /* the document's method that `method` follows */
     ang_image image;
     ang_scene scene;        /* that `image` shows, without what it borrows */
     ang_transfer *transfer; /* of `scene` */
@@ -60,7 +60,6 @@ int ang_volume_level(const ang_viewer *viewer);
 /* Seconds until the fine picture should be begun, or gone on with; infinite where there is nothing to refine. */
 double ang_volume_refine_in(const ang_viewer *viewer);
 void ang_volume_picture_clear(ang_viewer *viewer);
-void ang_volume_set_method(ang_viewer *viewer, int choice);
 /* The first place along a pixel's ray that shows; false where there is none. */
 bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm);
 const char *ang_volume_method_choice(const ang_viewer *viewer); /* "auto" or a name */

@@ -182,26 +182,35 @@ bool ang_document_same_rendering(const ang_document *a, const ang_document *b) {
            (a->mode != ANG_MODE_ISO || same_numbers(&a->iso_hu, &b->iso_hu, 1));
 }
 
-/* What two states differ in. */
-typedef enum difference { SAME, SAME_BUT_ZOOM, OTHER } difference;
+static bool same_slices(const ang_document *a, const ang_document *b) {
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
+        const ang_slice_view *p = &a->slice_view[i], *q = &b->slice_view[i];
+        if (!same_numbers(&p->zoom, &q->zoom, 1) || !same_numbers(p->pan_mm, q->pan_mm, 2)) return false;
+    }
+    return true;
+}
 
-static difference compare(const ang_document *a, const ang_document *b) {
+static ang_history_step compare(const ang_document *a, const ang_document *b) {
     bool rest = same_transfer(a, b) && same_style(a, b) && same_window(a, b) && same_direction(&a->view, &b->view) &&
                 strcmp(a->preset, b->preset) == 0 && a->edited == b->edited && a->slab == b->slab &&
-                a->crop == b->crop && same_box(a, b) && same_plane(a, b) && ang_turn_same(&a->turn, &b->turn) &&
-                ang_measures_same(&a->measures, &b->measures) &&
+                a->method == b->method && a->crop == b->crop && same_box(a, b) && same_plane(a, b) &&
+                ang_turn_same(&a->turn, &b->turn) && ang_measures_same(&a->measures, &b->measures) &&
                 same_numbers((double[]){a->iso_hu, a->slab_mm, a->shift_hu, a->stretch},
                              (double[]){b->iso_hu, b->slab_mm, b->shift_hu, b->stretch}, 4);
-    return !rest ? OTHER : same_zoom(&a->view, &b->view) ? SAME : SAME_BUT_ZOOM;
+    if (!rest) return ANG_STEP_CHANGE;
+    if (!same_zoom(&a->view, &b->view) || !same_slices(a, b)) return ANG_STEP_ZOOM;
+    return same_vector(a->crosshair, b->crosshair) ? ANG_STEP_NONE : ANG_STEP_CROSSHAIR;
 }
 
 void ang_history_note(ang_history *history, const ang_document *document, double seconds) {
     if (history->count > 0) {
-        difference found = compare(&history->states[history->now], document);
-        if (found == SAME) return;
-        bool again = found == SAME_BUT_ZOOM && history->zoomed && seconds - history->seconds <= same_gesture_seconds;
+        ang_history_step found = compare(&history->states[history->now], document);
+        if (found == ANG_STEP_NONE) return;
+        bool again = found == ANG_STEP_CROSSHAIR ? history->last == found || ang_history_can_redo(history)
+                                                 : found == history->last && found == ANG_STEP_ZOOM &&
+                                                       seconds - history->seconds <= same_gesture_seconds;
         history->seconds = seconds;
-        history->zoomed = found == SAME_BUT_ZOOM;
+        history->last = found;
         if (again) {
             history->states[history->now] = *document;
             return;
@@ -229,14 +238,14 @@ bool ang_history_can_redo(const ang_history *history) { return history->now + 1 
 bool ang_history_undo(ang_history *history, ang_document *document) {
     if (!ang_history_can_undo(history)) return false;
     *document = history->states[--history->now];
-    history->zoomed = false;
+    history->last = ANG_STEP_NONE;
     return true;
 }
 
 bool ang_history_redo(ang_history *history, ang_document *document) {
     if (!ang_history_can_redo(history)) return false;
     *document = history->states[++history->now];
-    history->zoomed = false;
+    history->last = ANG_STEP_NONE;
     return true;
 }
 

@@ -6,7 +6,7 @@
 #include "core/transfer/preset.h"
 #include "core/volume/measures.h"
 #include "core/volume/reslice.h"
-#include "ui/state/turn.h"
+#include "ui/state/slice_geometry.h"
 
 enum { ANG_DOCUMENT_POINTS = 128 };
 
@@ -30,6 +30,9 @@ typedef struct ang_document {
     ang_vec3 crop_lower, crop_upper; /* the crop box, kept while it is off: voxel index, within ang_volume_box */
     ang_clip_plane clip;             /* of the 3D picture; a zero normal: none */
     ang_turn turn;                   /* of the slice planes */
+    ang_vec3 crosshair;              /* LPS mm */
+    ang_slice_view slice_view[ANG_ORIENTATIONS];
+    int method; /* that draws the volume: 0: auto, else 1 + index into ang_methods */
     ang_measures measures;
 } ang_document;
 
@@ -58,17 +61,21 @@ void ang_document_move_point(ang_document *document, int index, double hu, doubl
 /* What a point shows as opacity per unit distance (0..1), and how to set it, also where points give extinction. */
 double ang_document_opacity(const ang_document *document, int index);
 
+/* What leads from a state to the next. */
+typedef enum ang_history_step { ANG_STEP_NONE, ANG_STEP_CROSSHAIR, ANG_STEP_ZOOM, ANG_STEP_CHANGE } ang_history_step;
+
 /* Past and future states. Zero-initialise; free with ang_history_clear. */
 typedef struct ang_history {
     ang_document *states;
     int count, capacity, now; /* states[now] is what is shown when nothing is pending */
     double seconds;           /* when states[now] was noted */
-    bool zoomed;              /* the step to it changed zoom and pan alone */
+    ang_history_step last;    /* led to it; NONE: undo or redo did */
 } ang_history;
 
 /* Notes a state that is to be kept; to be called when no drag is under way. Turns of the wheel come one by one: a state
- * that differs from the last in zoom and pan alone, as that did from the one before, takes its place where it comes
- * within a second. */
+ * that differs from the last in zoom and pan (and the crosshair) alone, as that did from the one before, takes its
+ * place where it comes within a second. However long the crosshair alone moves it is one step; and none where it moves
+ * after an undo, so that a look around leaves what can be redone. */
 void ang_history_note(ang_history *history, const ang_document *document, double seconds);
 /* Steps back or forth; false where there is nothing. */
 bool ang_history_undo(ang_history *history, ang_document *document);

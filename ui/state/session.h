@@ -3,15 +3,11 @@
 #define ANG_UI_SESSION_H
 
 #include "ui/state/document.h"
-#include "ui/state/slice_geometry.h"
 
 typedef struct ang_session {
-    ang_document document;
-    ang_vec3 crosshair; /* LPS mm; all three NaN: the middle */
-    ang_slice_view slice[ANG_ORIENTATIONS];
+    ang_document document;             /* crosshair of three NaN: the middle; method -1: as it is */
     int maximised;                     /* ang_pane; -1: none */
     char tool[16];                     /* "": as it is */
-    char method[16];                   /* "auto" or a name; "": as it is */
     bool corner_text, crosshair_lines; /* shown on the panes */
     bool voxels_shown;                 /* slices are not interpolated */
 } ang_session;
