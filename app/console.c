@@ -158,6 +158,7 @@ const char *const *ang_app_preset_folders(void) {
 
 ang_load_options ang_app_load_options(const ang_options *options) {
     return (ang_load_options){.series = options->series,
+                              .phase = options->phase,
                               .raw_dims = options->raw_dims,
                               .raw_type = options->raw_type,
                               .raw_spacing = options->raw_spacing,

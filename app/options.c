@@ -46,6 +46,8 @@ static const option_spec table[] = {
      "folder to write; made where it does not exist"},
     TEXT_OPTION("series", READS, series, "N|UID", NULL,
                 "series to load, as numbered by info, or the end of its UID; default: the largest CT volume"),
+    INTEGER_OPTION("phase", READS, phase, 0, 1000000, "0",
+                   "phase to load of a series of several at one place, as numbered by info; 0: the first"),
     TEXT_OPTION("preset", DRAWS | ANG_VERB_VIEW, preset, "NAME|FILE", NULL,
                 "preset: see 'presets list'; default: one that suits the input"),
     REAL_OPTION("shift", DRAWS, shift, "HU", -1e5, 1e5, "0", "HU",

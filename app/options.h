@@ -31,7 +31,7 @@ typedef struct ang_options {
     const char *cases;
     double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold, time_limit, max_error,
         max_time; /* NaN where not given and without default */
-    int frames, repeat, threads, seed, pass_steps, quads;
+    int frames, repeat, threads, seed, pass_steps, quads, phase;
     bool no_termination, no_skip, count_shown, separate_passes, show_bricks, axes, explain, manual_filter, strict,
         annotate, keep_phi, quiet, verbose, help, json_flag;
     const char **arguments; /* what is not an option, NULL at the end */

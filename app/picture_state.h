@@ -12,7 +12,7 @@
 typedef struct ang_stated {
     ang_options options;
     ang_state state; /* ang_state_default without --state */
-    char series[12];
+    char series[12], phase[12];
     const char *arguments[2];
 } ang_stated;
 

@@ -44,6 +44,7 @@ ang_load_options ang_waiting_load_options(ang_waiting *waiting, const char *path
     waiting->over = named || (state->input_path && strcmp(path, state->input_path) == 0);
     snprintf(waiting->series, sizeof waiting->series, "%d", ang_state_series(state));
     if (ang_state_series(state) > 0 && !how.series) how.series = waiting->series;
+    if (how.phase == 0) how.phase = ang_state_phase(state);
     if (!how.raw_dims) how.raw_dims = state->raw_dims;
     if (!how.raw_type) how.raw_type = state->raw_type;
     if (!how.raw_spacing) how.raw_spacing = state->raw_spacing;

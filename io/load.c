@@ -23,12 +23,28 @@ void ang_load_report_clear(ang_load_report *report) {
         free(report->series[i].patient);
         free(report->series[i].uid);
         free(report->series[i].remark);
+        for (int p = 0; report->series[i].phase_text && p < report->series[i].phases; p++)
+            free(report->series[i].phase_text[p]);
+        free(report->series[i].phase_text);
     }
     free(report->series);
     free(report->gaps);
     ang_notes_clear(&report->assumptions);
     ang_notes_clear(&report->warnings);
     *report = (ang_load_report){0};
+}
+
+const char *ang_series_phase_text(const ang_series_info *info, int phase) {
+    bool known = info->phase_text && phase >= 1 && phase <= info->phases && info->phase_text[phase - 1];
+    return known ? info->phase_text[phase - 1] : "";
+}
+
+bool ang_series_take_phase(const ang_series_info *info, const ang_load_options *options, int *phase, ang_error *err) {
+    *phase = options->phase > 0 ? options->phase : 1;
+    if (*phase <= info->phases || *phase == 1) return true;
+    if (info->phases > 1)
+        return ang_fail(err, ANG_INPUT, "--phase %d: series %d has phases 1 to %d", *phase, info->number, info->phases);
+    return ang_fail(err, ANG_INPUT, "--phase %d: series %d is one volume, phase 1", *phase, info->number);
 }
 
 bool ang_load_report_hounsfield(const ang_load_report *report) {
@@ -206,7 +222,8 @@ ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_
                                     : dispatch_all(paths, count, options, report, progress, err);
     if (!volume) return NULL;
     *err = (ang_error){0};
-    if (!check_numbers(volume, ang_base_name(paths[0]), err)) {
+    if (!ang_series_take_phase(&report->series[report->chosen], options, &report->phase, err) ||
+        !check_numbers(volume, ang_base_name(paths[0]), err)) {
         ang_volume_free(volume);
         return NULL;
     }

@@ -15,6 +15,7 @@ typedef struct ang_load_options {
     /* --series: a number as listed (1, 2, ...) or the end of a SeriesInstanceUID; NULL: largest CT. Formats that hold
      * one volume have series 1. */
     const char *series;
+    int phase; /* --phase: 1, 2, ... of a series of several phases; 0: the first */
     /* Refused with ANG_USAGE where the input is not raw. */
     const char *raw_dims;    /* --raw-dims "XxYxZ"; NULL: a JSON sidecar beside the file (NAME.json) must say it */
     const char *raw_type;    /* --raw-type u8 | i8 | u16 | i16 | f32, little endian */
@@ -34,6 +35,9 @@ typedef struct ang_series_info {
     char date[11];     /* of the acquisition, "2024-05-17": may identify a patient; empty where none is given */
     int width, height, slices;
     double spacing_mm[3]; /* along rows, columns and the normal: the mean distance of its slices (dicom-rules 4) */
+    int phases;           /* volumes of one place, one of which is loaded; 1 where the series is one volume */
+    char **phase_text;    /* what each is, "temporal position 2", "trigger time 350 ms": `phases` texts that identify
+                             nobody;    NULL: numbers are all that is known */
     bool loadable;
     char *remark; /* why it is not loadable, or what it is: "localizer", "derived summary (SEC...)" */
 } ang_series_info;
@@ -51,6 +55,7 @@ typedef struct ang_load_report {
     ang_series_info *series; /* all series found; at least one for NIfTI and raw too */
     size_t series_count;
     int chosen;           /* index into `series` */
+    int phase;            /* the one loaded, from 1 */
     int slices_read;      /* slices that went into the volume */
     int slices_duplicate; /* dropped: same position (InstanceNumber where positions are missing), same pixels */
     int slices_missing;   /* interpolated */
@@ -76,6 +81,10 @@ typedef struct ang_load_report {
 } ang_load_report;
 
 void ang_load_report_clear(ang_load_report *report);
+/* What phase `phase`, from 1, of a series is: its text, or "". */
+const char *ang_series_phase_text(const ang_series_info *info, int phase);
+/* Whether the series has the phase that is asked for, which goes to `*phase`, from 1. False with ANG_INPUT. */
+bool ang_series_take_phase(const ang_series_info *info, const ang_load_options *options, int *phase, ang_error *err);
 /* Whether the values are Hounsfield units: DICOM of modality CT. Others go through the same map, as numbers. */
 bool ang_load_report_hounsfield(const ang_load_report *report);
 

@@ -9,8 +9,9 @@
 #include <string.h>
 
 void ang_load_report_name(const ang_load_report *report, char name[32]) {
-    int number = report->series_count ? report->series[report->chosen].number : 0;
-    snprintf(name, 32, "%08x-%d", (unsigned)report->stored_crc32, number);
+    const ang_series_info *info = report->series_count ? &report->series[report->chosen] : NULL;
+    int used = snprintf(name, 32, "%08x-%d", (unsigned)report->stored_crc32, info ? info->number : 0);
+    if (info && info->phases > 1) snprintf(name + used, 32 - (size_t)used, ".%d", report->phase);
 }
 
 /* Text of the file for JSON and the table, in `out`. */
@@ -35,6 +36,16 @@ static void print_notes(FILE *out, const char *title, const ang_notes *notes, bo
     }
 }
 
+/* The phases of a series of several; `shown`, from 1, is the one that is loaded. */
+static void print_phases(FILE *out, const ang_series_info *info, int shown) {
+    for (int phase = 1; info->phases > 1 && phase <= info->phases; phase++) {
+        char text[ANG_NOTES_LINE];
+        fprintf(out, "      %c phase %d%s%s\n", phase == shown ? '*' : ' ', phase,
+                ang_series_phase_text(info, phase)[0] ? ": " : "",
+                clean(ang_series_phase_text(info, phase), text, sizeof text));
+    }
+}
+
 static void print_series(FILE *out, const ang_volume *volume, const ang_load_report *report, bool keep_phi) {
     fprintf(out, "Series (* is the one shown)\n");
     fprintf(out, "    no. kind   columns x rows x slices   spacing mm            remark\n");
@@ -49,6 +60,7 @@ static void print_series(FILE *out, const ang_volume *volume, const ang_load_rep
         fprintf(out, "  %c %3d %-6s %-25s %-21s %s%s%s%s\n", chosen ? '*' : ' ', info->number, info->modality, size,
                 spacing, info->loadable ? "" : "not a volume: ", or_dash(info->remark), description[0] ? "; " : "",
                 description);
+        print_phases(out, info, chosen ? report->phase : 0);
     }
 }
 
@@ -220,6 +232,12 @@ static void add_series(cJSON *input, const ang_volume *volume, const ang_load_re
         cJSON_AddBoolToObject(item, "loadable", info->loadable);
         cJSON_AddBoolToObject(item, "chosen", volume && (int)i == report->chosen);
         cJSON_AddStringToObject(item, "remark", info->remark ? info->remark : "");
+        cJSON *phases = cJSON_AddArrayToObject(item, "phases");
+        for (int phase = 1; phase <= info->phases; phase++) {
+            char text[ANG_NOTES_LINE];
+            clean(ang_series_phase_text(info, phase), text, sizeof text);
+            cJSON_AddItemToArray(phases, cJSON_CreateString(text));
+        }
         if (keep_phi) {
             char text[ANG_NOTES_LINE];
             cJSON_AddStringToObject(item, "description", clean(info->description, text, sizeof text));
@@ -285,6 +303,7 @@ cJSON *ang_load_report_json(const ang_volume *volume, const ang_load_report *rep
     else
         cJSON_AddNullToObject(input, "name");
     cJSON_AddStringToObject(input, "format", report->format);
+    if (volume) cJSON_AddNumberToObject(input, "phase", report->phase);
     if (volume) add_geometry(input, volume, report);
     add_series(input, volume, report, keep_phi);
     add_slices(input, report);

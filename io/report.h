@@ -20,7 +20,8 @@ void ang_load_report_facts(const ang_volume *volume, const ang_load_report *repo
  * out. */
 cJSON *ang_load_report_json(const ang_volume *volume, const ang_load_report *report, bool keep_phi);
 
-/* A name for the input that identifies nobody: hash of the stored values and number of the series. */
+/* A name for the input that identifies nobody: hash of the stored values and number of the series, with that of the
+ * phase where there are several: "0a1b2c3d-2.5". */
 void ang_load_report_name(const ang_load_report *report, char name[32]);
 
 #endif

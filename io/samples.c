@@ -271,6 +271,7 @@ bool ang_samples_list(const ang_volume *volume, const char *modality, const char
                               .width = volume->dims[0],
                               .height = volume->dims[1],
                               .slices = volume->dims[2],
+                              .phases = 1,
                               .loadable = true};
     if (!info->description || !info->uid || !info->remark)
         return ang_fail(err, ANG_LIMIT, "no memory for the list of series");

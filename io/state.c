@@ -61,6 +61,11 @@ int ang_state_series(const ang_state *state) {
     return dash ? atoi(dash + 1) : 0;
 }
 
+int ang_state_phase(const ang_state *state) {
+    const char *point = state->input_name ? strchr(state->input_name, '.') : NULL;
+    return point ? atoi(point + 1) : 0;
+}
+
 static void add_text(cJSON *object, const char *name, const char *text) {
     if (text && text[0]) cJSON_AddStringToObject(object, name, text);
 }

@@ -29,7 +29,7 @@ typedef struct ang_state_slice {
 typedef struct ang_state {
     char *input_path; /* of the data: usable from the current folder. A folder's name may identify a patient: it is in
                          files that a user saves, never in pictures */
-    char *input_name; /* hash of the stored values and number of the series, as ang_load_report_name gives it */
+    char *input_name; /* hash of the stored values, numbers of series and phase, as ang_load_report_name gives it */
     char *raw_dims, *raw_type, *raw_spacing; /* where the input is raw: as in ang_load_options */
     ang_preset *preset;                      /* as shown, shifts and edits in it */
     ang_state_option *options;               /* of the 3D picture */
@@ -61,8 +61,9 @@ void ang_state_clear(ang_state *state);
 bool ang_state_add_option(ang_state *state, const char *name, const char *value, ang_error *err);
 /* The value of an option; NULL: it is not there. */
 const char *ang_state_option_value(const ang_state *state, const char *name);
-/* Number of the series in `input_name`; 0 where it has none. */
+/* Number of the series and of its phase in `input_name`; 0 where it has none. */
 int ang_state_series(const ang_state *state);
+int ang_state_phase(const ang_state *state);
 
 /* The state as a JSON object: {"angioscope_state": 1, "program", "input": {"path", "name", ...}, "preset": {...}, as in
  * preset.h, "render": {OPTION: VALUE, ...}, "window": {"centre", "width"}, "crosshair_mm", "planes_turn", "axial":

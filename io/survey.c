@@ -21,6 +21,7 @@ static bool list_one(ang_load_report *report, const char *path, ang_error *err) 
                                         .patient = strdup(""),
                                         .uid = strdup(""),
                                         .remark = strdup(""),
+                                        .phases = 1,
                                         .loadable = true};
     const ang_series_info *info = report->series;
     return (info->description && info->patient && info->uid && info->remark) ||

@@ -96,6 +96,7 @@ static bool describe(const ang_dicom_slice *slices, const ang_dicom_group *group
                               .width = first->columns,
                               .height = first->rows,
                               .slices = (int)group->count,
+                              .phases = 1,
                               .loadable = group->loadable};
     if (!info->description || !info->patient || !info->uid || !info->remark)
         return ang_fail(err, ANG_LIMIT, "no memory for the list of series");
