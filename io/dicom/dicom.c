@@ -138,14 +138,17 @@ static void note_choice(const ang_dicom_listing *listing, size_t chosen, const a
     const ang_dicom_groups *groups = &listing->groups;
     const ang_dicom_group *group = &groups->group[chosen];
     const ang_dicom_slice *first = &listing->folder.slices[group->order[0]];
-    if (groups->count > 1 && !options->series)
-        ang_notes_add(&report->assumptions, "series %zu of %zu is shown: the largest %s volume; --series picks another",
-                      chosen + 1, groups->count, strcmp(first->modality, "CT") == 0 ? "CT" : "image");
+    if (groups->series_count > 1 && !options->series)
+        ang_notes_add(&report->assumptions, "series %d of %d is shown: the largest %s volume; --series picks another",
+                      group->series, groups->series_count, strcmp(first->modality, "CT") == 0 ? "CT" : "image");
     if (group->duplicates > 0)
         ang_notes_add(&report->assumptions, "%d slice%s with the same %s and pixels as another: dropped",
                       group->duplicates, ang_plural(group->duplicates),
                       first->has_position ? "position" : "InstanceNumber");
-    if (group->phases > 1)
+    if (group->set > 0)
+        ang_notes_add(&report->assumptions, "phase %d of %d is shown, %s; --phase picks another", group->phase,
+                      group->phases, group->phase_text);
+    else if (group->phases > 1)
         ang_notes_add(&report->assumptions, "the series holds %d volumes at the same positions: one is shown",
                       group->phases);
     if (group->acquisitions > 1)
@@ -162,16 +165,29 @@ static ang_volume *load_chosen(ang_dicom_listing *listing, size_t chosen, const 
     const ang_dicom_slice *slices = listing->folder.slices;
     ang_dicom_group *group = &listing->groups.group[chosen];
     const ang_dicom_slice *first = &slices[group->order[0]];
-    report->chosen = (int)chosen;
     report->slices_duplicate = group->duplicates;
     note_choice(listing, chosen, options, report);
     ang_dicom_note_values(slices, group, &report->assumptions, &report->warnings);
     ang_volume *volume = build(&listing->folder, group, options, report, progress, err);
     if (!volume) return NULL;
     note_result(volume, first, report);
-    report->series[chosen].slices = report->slices_read;
-    report->series[chosen].spacing_mm[2] = ang_dicom_slice_distance(slices, group);
+    ang_series_info *info = &report->series[report->chosen];
+    info->slices = report->slices_read;
+    info->spacing_mm[2] = ang_dicom_slice_distance(slices, group);
     return volume;
+}
+
+/* The group to load: series and phase as asked for. */
+static bool choose(const ang_dicom_listing *listing, const ang_load_options *options, ang_load_report *report,
+                   size_t *chosen, ang_error *err) {
+    const ang_dicom_groups *groups = &listing->groups;
+    if (!ang_dicom_choose(listing->folder.slices, groups, options->series, chosen, err)) return false;
+    report->chosen = groups->group[*chosen].series - 1;
+    const ang_series_info *info = &report->series[report->chosen];
+    if (!ang_series_take_phase(info, options, &report->phase, err)) return false;
+    *chosen += (size_t)report->phase - 1;
+    return groups->group[*chosen].loadable || ang_fail(err, ANG_INPUT, "phase %d of series %d cannot be loaded: %s",
+                                                       report->phase, info->number, groups->group[*chosen].remark);
 }
 
 ang_volume *ang_dicom_load(const char *const *paths, size_t count, const ang_load_options *options,
@@ -181,9 +197,9 @@ ang_volume *ang_dicom_load(const char *const *paths, size_t count, const ang_loa
     ang_volume *volume = NULL;
     size_t chosen = 0;
     ang_error why = {0};
-    if (ang_dicom_choose(listing.folder.slices, &listing.groups, options->series, &chosen, &why))
+    if (choose(&listing, options, report, &chosen, &why))
         volume = load_chosen(&listing, chosen, options, report, progress, err);
-    else if (options->series)
+    else if (options->series || options->phase)
         ang_fail(err, why.code, "%s", why.message);
     else
         ang_fail(err, why.code, "%s: %s", ang_base_name(paths[0]), why.message);

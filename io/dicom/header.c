@@ -99,6 +99,9 @@ static void take_identity(ang_dicom_reader *r, const ang_dicom_element *e, ang_d
     case TAG(0x0010, 0x0010):
         take_words(r, e, seen->character_set, s->patient);
         break;
+    case TAG(0x0010, 0x0020):
+        ang_dicom_text(r, e, s->patient_id, sizeof s->patient_id);
+        break;
     case TAG(0x0020, 0x000E):
         ang_dicom_text(r, e, s->series_uid, sizeof s->series_uid);
         break;
@@ -130,6 +133,9 @@ static void take_geometry(ang_dicom_reader *r, const ang_dicom_element *e, ang_d
         break;
     case TAG(0x0018, 0x0088):
         s->has_slice_distance = ang_dicom_numbers(r, e, &s->slice_distance, 1) == 1;
+        break;
+    case TAG(0x0018, 0x1060):
+        s->has_trigger_time = ang_dicom_numbers(r, e, &s->trigger_time, 1) == 1;
         break;
     case TAG(0x0018, 0x1120):
         s->has_tilt = ang_dicom_numbers(r, e, &s->tilt, 1) == 1;

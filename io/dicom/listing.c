@@ -85,10 +85,28 @@ static void date_of(const ang_dicom_slice *slice, char date[11]) {
     if (strspn(from, "0123456789") >= 8) snprintf(date, 11, "%.4s-%.2s-%.2s", from, from + 4, from + 6);
 }
 
-static bool describe(const ang_dicom_slice *slices, const ang_dicom_group *group, int number, ang_series_info *info,
+/* What the phases of a series are; a phase of another number of slices says so. */
+static bool describe_phases(const ang_dicom_group *first, ang_series_info *info, ang_error *err) {
+    info->phases = first->set > 0 ? first->phases : 1;
+    if (info->phases == 1) return true;
+    info->phase_text = ang_alloc((size_t)info->phases, sizeof *info->phase_text, "list of phases", err);
+    for (int p = 0; info->phase_text && p < info->phases; p++) {
+        char text[128];
+        if (first[p].count == first->count)
+            snprintf(text, sizeof text, "%s", first[p].phase_text);
+        else
+            snprintf(text, sizeof text, "%s, %zu slice%s", first[p].phase_text, first[p].count,
+                     ang_plural((long long)first[p].count));
+        info->phase_text[p] = strdup(text);
+        if (!info->phase_text[p]) return ang_fail(err, ANG_LIMIT, "no memory for the list of phases");
+    }
+    return info->phase_text != NULL;
+}
+
+static bool describe(const ang_dicom_slice *slices, const ang_dicom_group *group, ang_series_info *info,
                      ang_error *err) {
     const ang_dicom_slice *first = &slices[group->order[0]];
-    *info = (ang_series_info){.number = number,
+    *info = (ang_series_info){.number = group->series,
                               .description = strdup(first->description),
                               .patient = strdup(first->patient),
                               .uid = strdup(first->series_uid),
@@ -96,7 +114,6 @@ static bool describe(const ang_dicom_slice *slices, const ang_dicom_group *group
                               .width = first->columns,
                               .height = first->rows,
                               .slices = (int)group->count,
-                              .phases = 1,
                               .loadable = group->loadable};
     if (!info->description || !info->patient || !info->uid || !info->remark)
         return ang_fail(err, ANG_LIMIT, "no memory for the list of series");
@@ -106,16 +123,18 @@ static bool describe(const ang_dicom_slice *slices, const ang_dicom_group *group
     info->spacing_mm[0] = first->has_spacing ? first->column_spacing : 1;
     info->spacing_mm[1] = first->has_spacing ? first->row_spacing : 1;
     info->spacing_mm[2] = ang_dicom_slice_distance(slices, group);
-    return true;
+    return describe_phases(group, info, err);
 }
 
 static bool describe_all(const ang_dicom_folder *folder, const ang_dicom_groups *groups, ang_load_report *report,
                          ang_error *err) {
-    report->series = ang_alloc(groups->count, sizeof *report->series, "list of series", err);
+    report->series = ang_alloc((size_t)groups->series_count, sizeof *report->series, "list of series", err);
     if (!report->series) return false;
-    report->series_count = groups->count;
-    for (size_t i = 0; i < groups->count; i++)
-        if (!describe(folder->slices, &groups->group[i], (int)i + 1, &report->series[i], err)) return false;
+    report->series_count = (size_t)groups->series_count;
+    for (int i = 0; i < groups->series_count; i++) {
+        const ang_dicom_group *group = &groups->group[ang_dicom_series_start(groups, i + 1)];
+        if (!describe(folder->slices, group, &report->series[i], err)) return false;
+    }
     return true;
 }
 

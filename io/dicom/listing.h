@@ -6,7 +6,7 @@
 #include "io/dicom/series.h"
 #include "io/load.h"
 
-/* Owns everything; free with ang_dicom_listing_clear. Group i is series i + 1. */
+/* Owns everything; free with ang_dicom_listing_clear. */
 typedef struct ang_dicom_listing {
     ang_dicom_folder folder;
     ang_dicom_groups groups;

@@ -9,24 +9,40 @@
 
 enum { fewest_slices = 3 }; /* of a part that is known to be regular */
 
-static bool key_text(const ang_dicom_slice *slice, ang_dicom_key key, char *out, size_t size) {
+bool ang_dicom_key_text(const ang_dicom_slice *slice, ang_dicom_key key, char *out, size_t size) {
     switch (key) {
     case ANG_DICOM_BY_IMAGE_TYPE:
         snprintf(out, size, "%s", slice->image_type);
-        return out[0] != 0;
+        break;
     case ANG_DICOM_BY_TEMPORAL_POSITION:
         snprintf(out, size, "%d", slice->temporal_position);
         return slice->has_temporal_position;
+    case ANG_DICOM_BY_TRIGGER_TIME:
+        snprintf(out, size, "%.10g", slice->trigger_time);
+        return slice->has_trigger_time;
+    case ANG_DICOM_BY_CARDIAC_PHASE:
+        snprintf(out, size, "%.10g", slice->cardiac_phase);
+        return slice->has_cardiac_phase;
+    case ANG_DICOM_BY_DIMENSIONS:
+        snprintf(out, size, "%s", slice->dimensions);
+        break;
     case ANG_DICOM_BY_ACQUISITION_NUMBER:
         snprintf(out, size, "%d", slice->acquisition_number);
         return slice->has_acquisition_number;
+    case ANG_DICOM_BY_OBJECT:
+        if (slice->object[0])
+            snprintf(out, size, "%s", slice->object);
+        else
+            snprintf(out, size, "file %zu", slice->file);
+        return slice->frame > 0;
     case ANG_DICOM_BY_ACQUISITION_TIME:
         snprintf(out, size, "%s", slice->acquisition_time);
-        return out[0] != 0;
+        break;
     default:
         snprintf(out, size, "%s", slice->content_time);
-        return out[0] != 0;
+        break;
     }
+    return out[0] != 0;
 }
 
 int ang_dicom_parts_by_key(const ang_dicom_slice *slices, const size_t *order, size_t count, ang_dicom_key key,
@@ -35,7 +51,7 @@ int ang_dicom_parts_by_key(const ang_dicom_slice *slices, const size_t *order, s
     int parts = 0;
     for (size_t i = 0; i < count; i++) {
         char text[129];
-        if (!key_text(&slices[order[i]], key, text, sizeof text)) return 0;
+        if (!ang_dicom_key_text(&slices[order[i]], key, text, sizeof text)) return 0;
         int k = 0;
         while (k < parts && strcmp(known[k], text) != 0) k++;
         if (k == parts) {

@@ -8,13 +8,20 @@
 typedef enum ang_dicom_key {
     ANG_DICOM_BY_IMAGE_TYPE, /* all of its values */
     ANG_DICOM_BY_TEMPORAL_POSITION,
+    ANG_DICOM_BY_TRIGGER_TIME,
+    ANG_DICOM_BY_CARDIAC_PHASE,
+    ANG_DICOM_BY_DIMENSIONS,
     ANG_DICOM_BY_ACQUISITION_NUMBER,
+    ANG_DICOM_BY_OBJECT, /* the multi-frame file or concatenation */
     ANG_DICOM_BY_ACQUISITION_TIME,
     ANG_DICOM_BY_CONTENT_TIME,
     ANG_DICOM_KEYS,
 } ang_dicom_key;
 
-enum { ang_dicom_most_parts = 64 };
+enum { ang_dicom_most_parts = 512 };
+
+/* Writes the slice's value of a key; false where it has none. */
+bool ang_dicom_key_text(const ang_dicom_slice *slice, ang_dicom_key key, char *out, size_t size);
 
 /* Numbers the `count` slices of `order` by their value of `key`, from 0 in order of appearance, in `part`. Returns how
  * many values there are; 0 where a slice has none or there are more than ang_dicom_most_parts. */

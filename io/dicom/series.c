@@ -3,6 +3,7 @@
 #include "core/base/memory.h"
 #include "io/dicom/geometry.h"
 #include "io/dicom/parts.h"
+#include "io/dicom/phases.h"
 #include "io/dicom/terms.h"
 
 #include <math.h>
@@ -23,7 +24,7 @@ static bool near_vectors(ang_vec3 a, ang_vec3 b) {
 }
 
 /* The first three values: further ones are the vendor's and change within one volume (GE: ADD where neighbouring scans
- * were summed). Where they do tell volumes apart, positions repeat, and phase_key() looks at all of them. */
+ * were summed). Where they do tell volumes apart, positions repeat, and phases are told by all of them. */
 static bool same_image_type(const ang_dicom_slice *a, const ang_dicom_slice *b) {
     for (int i = 0; i < 3; i++) {
         char left[65], right[65];
@@ -56,26 +57,8 @@ static ang_dicom_group *add_group(ang_dicom_groups *groups, size_t *order, size_
         return NULL;
     }
     groups->group = grown;
-    grown[groups->count] = (ang_dicom_group){.order = order, .count = count, .phases = 1};
+    grown[groups->count] = (ang_dicom_group){.order = order, .count = count, .phases = 1, .phase = 1};
     return &grown[groups->count++];
-}
-
-/* Numbers every slice of the sorted group by its volume, by a key that has exactly `phases` values and none twice at a
- * position; false where `key` is no such key. */
-static bool phases_by_key(const ang_dicom_slice *slices, const ang_dicom_group *group, const size_t *place, int phases,
-                          ang_dicom_key key, int *phase) {
-    if (ang_dicom_parts_by_key(slices, group->order, group->count, key, phase) != phases) return false;
-    for (size_t i = 0; i < group->count; i++) {
-        for (size_t j = i; j-- > 0 && place[j] == place[i];) {
-            if (phase[j] == phase[i]) return false;
-        }
-    }
-    return true;
-}
-
-/* The n-th slice at a position, in order of instance number, belongs to the n-th volume. */
-static void phases_by_rank(const size_t *place, size_t count, int *phase) {
-    for (size_t i = 0; i < count; i++) phase[i] = i > 0 && place[i] == place[i - 1] ? phase[i - 1] + 1 : 0;
 }
 
 /* Whether two neighbours of a sorted group may be one slice twice. */
@@ -86,10 +69,14 @@ static bool at_one_place(const ang_dicom_slice *a, const ang_dicom_slice *b, ang
 
 /* Compares slice `slice` with those kept at its place, from `first` on. Takes unreadable ones among them out; `stays`
  * says whether the slice itself stays. */
-static bool compare_at_place(ang_dicom_group *group, size_t first, size_t *kept, size_t slice,
-                             ang_dicom_compare *compare, void *context, bool *stays, ang_error *err) {
+static bool compare_at_place(const ang_dicom_slice *slices, ang_dicom_group *group, size_t first, size_t *kept,
+                             size_t slice, ang_dicom_compare *compare, void *context, bool *stays, ang_error *err) {
     *stays = true;
     for (size_t j = first; j < *kept && *stays;) {
+        if (ang_dicom_phases_differ(&slices[group->order[j]], &slices[slice])) { /* air looks alike in all phases */
+            j++;
+            continue;
+        }
         switch (compare(context, group->order[j], slice, err)) {
         case ANG_DICOM_SAME:
             group->duplicates++;
@@ -121,7 +108,8 @@ static bool drop_duplicates(const ang_dicom_slice *slices, ang_dicom_group *grou
         size_t slice = group->order[i], first = kept; /* `first`: of the slices kept at this place */
         bool stays = true;
         while (first > 0 && at_one_place(&slices[group->order[first - 1]], &slices[slice], normal)) first--;
-        if (compare && !compare_at_place(group, first, &kept, slice, compare, context, &stays, err)) return false;
+        if (compare && !compare_at_place(slices, group, first, &kept, slice, compare, context, &stays, err))
+            return false;
         if (!stays) continue;
         place[kept] = first < kept ? place[kept - 1] : kept ? place[kept - 1] + 1 : 0;
         group->order[kept++] = slice;
@@ -157,6 +145,27 @@ static bool split_group(ang_dicom_groups *groups, size_t index, const int *part,
     return true;
 }
 
+/* The phases of one series: group `index` and those from `others` on, in order. A single slice beside volumes is no
+ * phase: it was sent again, or never belonged there. */
+static void make_set(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_t index, size_t others,
+                     ang_dicom_key key) {
+    size_t largest = 0, members = 0;
+    for (size_t i = index; i < groups->count; i = i == index ? others : i + 1)
+        if (groups->group[i].count > largest) largest = groups->group[i].count;
+    for (size_t i = index; i < groups->count; i = i == index ? others : i + 1)
+        members += groups->group[i].count > 1 || largest == 1;
+    const ang_dicom_slice *first = &slices[groups->group[index].order[0]];
+    int number = 0;
+    for (size_t i = index; members > 1 && i < groups->count; i = i == index ? others : i + 1) {
+        ang_dicom_group *group = &groups->group[i];
+        if (group->count == 1 && largest > 1) continue;
+        group->set = (int)index + 1;
+        group->phase = ++number;
+        ang_dicom_phase_words(key, &slices[group->order[0]], first, number, group->phase_text,
+                              sizeof group->phase_text);
+    }
+}
+
 /* Sorts group `index`, drops its duplicates and splits it where positions repeat with other pixels (rule 6). */
 static bool resolve_positions(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_t index,
                               ang_dicom_compare *compare, void *context, ang_error *err) {
@@ -173,13 +182,12 @@ static bool resolve_positions(const ang_dicom_slice *slices, ang_dicom_groups *g
     bool ok = phase && drop_duplicates(slices, group, normal, compare, context, place, &phases, err);
     /* One InstanceNumber twice, without positions, does not tell where a second volume would lie. */
     if (ok && phases > 1 && first.has_position) {
-        ang_dicom_key key = 0;
-        while (key < ANG_DICOM_KEYS && !phases_by_key(slices, group, place, phases, key, phase)) key++;
-        if (key == ANG_DICOM_KEYS) phases_by_rank(place, group->count, phase);
+        ang_dicom_key key = ang_dicom_number_phases(slices, group->order, place, group->count, phases, phase);
         group->phases = phases;
-        size_t *old = group->order;
+        size_t *old = group->order, others = groups->count;
         ok = split_group(groups, index, phase, phases, err);
         if (groups->group[index].order != old) free(old);
+        if (ok) make_set(slices, groups, index, others, key);
     }
     free(place);
     free(phase);
@@ -203,9 +211,11 @@ static bool part_volumes(const ang_dicom_slice *slices, ang_dicom_groups *groups
            : ANG_DICOM_ONE_VOLUME;
     if (why != ANG_DICOM_ONE_VOLUME) {
         *(why == ANG_DICOM_ACQUISITIONS ? &group->acquisitions : &group->stacks) = parts;
-        size_t *old = group->order;
+        size_t *old = group->order, others = groups->count;
         ok = split_group(groups, index, part, parts, err);
         if (groups->group[index].order != old) free(old);
+        for (size_t i = others; i < groups->count; i++)
+            groups->group[i].part = parts * groups->group[i].part + (int)(i - others) + 1;
         *split = true;
     }
     free(part);
@@ -259,7 +269,9 @@ static void judge(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_
                  first->bad_position ? "valid " : "");
     } else {
         group->loadable = true;
-        if (group->phases > 1)
+        if (group->set > 0)
+            snprintf(group->remark, sizeof group->remark, "%d phases at the same positions", group->phases);
+        else if (group->phases > 1)
             snprintf(group->remark, sizeof group->remark, "one of %d volumes at the same positions", group->phases);
         else if (group->acquisitions > 1)
             snprintf(group->remark, sizeof group->remark, "one of %d acquisitions in its series", group->acquisitions);
@@ -272,9 +284,25 @@ static void judge(const ang_dicom_slice *slices, ang_dicom_groups *groups, size_
     }
 }
 
+/* Phases of which one parts into stacks in another way than the rest are series of their own. */
+static void dissolve_uneven_sets(ang_dicom_groups *groups) {
+    for (size_t i = 0; i < groups->count; i++) {
+        int set = groups->group[i].set, members = 0, other = 0;
+        for (size_t j = 0; set > 0 && j < groups->count; j++) {
+            if (groups->group[j].set != set) continue;
+            members += groups->group[j].part == 0;
+            other += groups->group[j].part == groups->group[i].part;
+        }
+        if (set == 0 || members == other) continue;
+        for (size_t j = 0; j < groups->count; j++)
+            if (groups->group[j].set == set) groups->group[j].set = 0;
+    }
+}
+
 typedef struct listed {
     ang_dicom_group group;
-    const ang_dicom_slice *first;
+    const ang_dicom_slice *first; /* of the series' first phase */
+    size_t count;                 /* of that */
 } listed;
 
 /* By series number, then by the first file, so that the numbers do not depend on how the folder was read. */
@@ -284,19 +312,58 @@ static int compare_listed(const void *left, const void *right) {
         return a->first->series_number < b->first->series_number ? -1 : 1;
     int uid = strcmp(a->first->series_uid, b->first->series_uid);
     if (uid != 0) return uid;
-    if (a->group.count != b->group.count) return a->group.count > b->group.count ? -1 : 1;
-    return a->first->file < b->first->file ? -1 : a->first->file > b->first->file;
+    if (a->count != b->count) return a->count > b->count ? -1 : 1;
+    if (a->first->file != b->first->file) return a->first->file < b->first->file ? -1 : 1;
+    if (a->first->frame != b->first->frame) return a->first->frame < b->first->frame ? -1 : 1;
+    return a->group.phase - b->group.phase;
+}
+
+static bool of_one_series(const ang_dicom_group *a, const ang_dicom_group *b) {
+    return a->set > 0 && a->set == b->set && a->part == b->part;
+}
+
+/* The group of the first phase of the series that group `index` is of. */
+static const ang_dicom_group *first_phase(const ang_dicom_groups *groups, size_t index) {
+    const ang_dicom_group *first = &groups->group[index];
+    for (size_t i = 0; i < groups->count; i++)
+        if (of_one_series(first, &groups->group[i]) && groups->group[i].phase < first->phase) first = &groups->group[i];
+    return first;
+}
+
+/* Numbers series and their phases in the list. */
+static void number_series(ang_dicom_groups *groups) {
+    for (size_t begin = 0, end; begin < groups->count; begin = end) {
+        ang_dicom_group *first = &groups->group[begin];
+        groups->series_count++;
+        for (end = begin + 1; end < groups->count && of_one_series(first, &groups->group[end]);) end++;
+        for (size_t i = begin; i < end; i++) {
+            ang_dicom_group *group = &groups->group[i];
+            group->series = groups->series_count;
+            group->phase = (int)(i - begin) + 1;
+            if (group->set > 0) group->phases = (int)(end - begin);
+        }
+    }
 }
 
 static bool list_groups(const ang_dicom_slice *slices, ang_dicom_groups *groups, ang_error *err) {
     if (groups->count == 0) return true;
     listed *list = ang_alloc(groups->count, sizeof *list, "list of series", err);
     if (!list) return false;
-    for (size_t i = 0; i < groups->count; i++) list[i] = (listed){groups->group[i], &slices[groups->group[i].order[0]]};
+    for (size_t i = 0; i < groups->count; i++) {
+        const ang_dicom_group *first = first_phase(groups, i);
+        list[i] = (listed){groups->group[i], &slices[first->order[0]], first->count};
+    }
     qsort(list, groups->count, sizeof *list, compare_listed);
     for (size_t i = 0; i < groups->count; i++) groups->group[i] = list[i].group;
     free(list);
+    number_series(groups);
     return true;
+}
+
+size_t ang_dicom_series_start(const ang_dicom_groups *groups, int number) {
+    size_t start = 0;
+    while (start < groups->count && groups->group[start].series < number) start++;
+    return start;
 }
 
 static int compare_uids(const void *left, const void *right, void *context) {
@@ -356,6 +423,7 @@ bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dic
         ok = part_volumes(slices, groups, i, &split, err);
         if (!split) i++;
     }
+    if (ok) dissolve_uneven_sets(groups);
     ok = ok && list_groups(slices, groups, err);
     for (size_t i = 0; ok && i < groups->count; i++) judge(slices, groups, i);
     if (!ok) ang_dicom_groups_clear(groups);
@@ -391,8 +459,8 @@ static bool choose_named(const ang_dicom_slice *slices, const ang_dicom_groups *
     char *rest;
     long number = strtol(series, &rest, 10);
     size_t found = groups->count;
-    if (*series && !*rest && number >= 1 && (unsigned long)number <= groups->count) {
-        found = (size_t)number - 1;
+    if (*series && !*rest && number >= 1 && number <= groups->series_count) {
+        found = ang_dicom_series_start(groups, (int)number);
     } else {
         for (size_t i = 0; i < groups->count; i++) {
             const ang_dicom_group *group = &groups->group[i];
@@ -403,8 +471,9 @@ static bool choose_named(const ang_dicom_slice *slices, const ang_dicom_groups *
         }
     }
     if (found == groups->count)
-        return ang_fail(err, ANG_INPUT, "--series %s: there are series 1 to %zu, and no UID ends so", series,
-                        groups->count);
+        return ang_fail(err, ANG_INPUT, "--series %s: there are series 1 to %d, and no UID ends so", series,
+                        groups->series_count);
+    found = ang_dicom_series_start(groups, groups->group[found].series);
     if (!groups->group[found].loadable)
         return ang_fail(err, ANG_INPUT, "--series %s: cannot be loaded: %s", series, groups->group[found].remark);
     *chosen = found;
@@ -420,10 +489,11 @@ bool ang_dicom_choose(const ang_dicom_slice *slices, const ang_dicom_groups *gro
         if (best == groups->count || is_better(slices, &groups->group[i], &groups->group[best])) best = i;
     }
     if (best == groups->count) {
-        if (groups->count == 1) return ang_fail(err, ANG_INPUT, "no 3D image series: %s", groups->group[0].remark);
-        return ang_fail(err, ANG_INPUT, "no 3D image series among the %zu found: the first is: %s", groups->count,
+        if (groups->series_count == 1)
+            return ang_fail(err, ANG_INPUT, "no 3D image series: %s", groups->group[0].remark);
+        return ang_fail(err, ANG_INPUT, "no 3D image series among the %d found: the first is: %s", groups->series_count,
                         groups->count ? groups->group[0].remark : "");
     }
-    *chosen = best;
+    *chosen = ang_dicom_series_start(groups, groups->group[best].series);
     return true;
 }

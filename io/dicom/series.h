@@ -11,19 +11,25 @@
 typedef struct ang_dicom_group {
     size_t *order; /* indices into the slices, sorted by position; duplicates and unreadable doubles left out */
     size_t count;
-    int duplicates;   /* dropped: same position (same InstanceNumber where positions are missing), same pixels */
-    int phases;       /* > 1: one of several volumes at the same positions */
-    int acquisitions; /* > 1: one of several acquisitions in its series that do not continue one another */
-    int stacks;       /* > 1: one of several stacks with more slices missing between them than there are */
+    int duplicates;      /* dropped: same position (same InstanceNumber where positions are missing), same pixels */
+    int phases;          /* > 1: one of several volumes at the same positions */
+    int phase;           /* which of them it is, from 1 */
+    int set, part;       /* groups of one set, above 0, and part are the phases of one series in the list */
+    int series;          /* its number in the list, from 1 */
+    char phase_text[64]; /* what it is of the phases */
+    int acquisitions;    /* > 1: one of several acquisitions in its series that do not continue one another */
+    int stacks;          /* > 1: one of several stacks with more slices missing between them than there are */
     bool loadable;
     bool derived;     /* ImageType DERIVED\SECONDARY or a secondary capture: loaded only where nothing else is */
     char remark[128]; /* why it is not loadable, or what it is */
 } ang_dicom_group;
 
-/* In the order in which they are listed. Owns its groups; free with ang_dicom_groups_clear. */
+/* In the order in which they are listed, the phases of a series one after the other. Owns its groups; free with
+ * ang_dicom_groups_clear. */
 typedef struct ang_dicom_groups {
     ang_dicom_group *group;
     size_t count;
+    int series_count; /* in the list */
 } ang_dicom_groups;
 
 /* How the pixels of two slices compare. */
@@ -45,9 +51,12 @@ bool ang_dicom_group_slices(const ang_dicom_slice *slices, size_t count, ang_dic
                             ang_dicom_groups *groups, ang_error *err);
 void ang_dicom_groups_clear(ang_dicom_groups *groups);
 
-/* The group to load: number `series` (1, 2, ...) or the one whose SeriesInstanceUID ends in it; NULL: the largest CT
- * volume, else the largest of another modality; of equal ones the first without lossy compression, else the first.
- * ANG_INPUT where there is none that can be loaded. */
+/* The group of series `number`, from 1, and of its first phase. */
+size_t ang_dicom_series_start(const ang_dicom_groups *groups, int number);
+
+/* The group to load, of the series' first phase: series number `series` (1, 2, ...) or the one whose SeriesInstanceUID
+ * ends in it; NULL: the largest CT volume, else the largest of another modality; of equal ones the first without lossy
+ * compression, else the first. ANG_INPUT where there is none that can be loaded. */
 bool ang_dicom_choose(const ang_dicom_slice *slices, const ang_dicom_groups *groups, const char *series, size_t *chosen,
                       ang_error *err);
 

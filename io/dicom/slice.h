@@ -28,12 +28,21 @@ typedef struct ang_dicom_slice {
     char modality[17];
     char description[257]; /* UTF-8 */
     char patient[257];     /* PatientName, UTF-8, its components separated by '^' */
-    char image_type[129];  /* values separated by '\\' */
+    char patient_id[65];
+    char image_type[129]; /* values separated by '\\' */
     char photometric[17];
     char stack_id[17];
     char acquisition_time[41], content_time[41]; /* date and time, or only one of them */
     bool has_series_number, has_instance_number, has_acquisition_number, has_temporal_position, has_window;
     int series_number, instance_number, acquisition_number, temporal_position;
+    bool has_trigger_time, has_cardiac_phase;
+    double trigger_time;  /* ms after the R peak */
+    double cardiac_phase; /* % of the cardiac cycle */
+
+    int frame;           /* of a multi-frame file, from 1; 0: the file's only picture */
+    char object[65];     /* what its file is one of: ConcatenationUID; empty where it is none */
+    int object_number;   /* InstanceNumber of the file */
+    char dimensions[49]; /* DimensionIndexValues but those of stack and position, separated by '\\' */
 
     int rows, columns, samples, frames;
     int bits_allocated, bits_stored, high_bit;

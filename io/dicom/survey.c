@@ -25,7 +25,7 @@ static ang_raw_slice read_middle(const ang_dicom_folder *folder, const ang_dicom
 
 static void look_at(const ang_dicom_listing *listing, size_t index, const ang_survey_sink *sink) {
     const ang_dicom_slice *slices = listing->folder.slices;
-    ang_dicom_group *group = &listing->groups.group[index];
+    ang_dicom_group *group = &listing->groups.group[ang_dicom_series_start(&listing->groups, (int)index + 1)];
     ang_notes assumptions = {0}, warnings = {0};
     ang_error err = {0};
     const char *refusal = group->loadable ? NULL : group->remark;
@@ -51,9 +51,10 @@ bool ang_dicom_survey(const char *const *paths, size_t count, const ang_load_opt
     if (!ang_dicom_list(paths, count, options, report, progress, &listing, err)) return false;
     sink->listed(sink->context, report);
     bool going = true;
-    for (size_t i = 0; i < listing.groups.count && going; i++) {
+    size_t series = (size_t)listing.groups.series_count;
+    for (size_t i = 0; i < series && going; i++) {
         look_at(&listing, i, sink);
-        going = ang_progress_update(progress, "looking at series", (double)(i + 1) / (double)listing.groups.count);
+        going = ang_progress_update(progress, "looking at series", (double)(i + 1) / (double)series);
     }
     ang_dicom_listing_clear(&listing);
     return going || ang_fail(err, ANG_INTERRUPTED, "interrupted while looking at series");

@@ -50,6 +50,8 @@ typedef struct form {
     bool damaged; /* the header is sound, the (compressed) pixels are not */
     bool no_image;
     int padding;
+    const char *trigger_time, *patient_id, *series_uid;
+    int temporal_position; /* 0: none */
     uint16_t pixels[width * height];
 } form;
 
@@ -73,13 +75,17 @@ static inline void small(const char *name, const form *form) {
     put_text(&f, 8, 0x60, "CS", form->modality ? form->modality : "CT");
     put_text(&f, 8, 0x103E, "LO", form->description ? form->description : "JOHN DOE HEAD");
     put_text(&f, 0x10, 0x10, "PN", form->patient ? form->patient : "DOE^MARY");
-    put_text(&f, 0x20, 0x0E, "UI", "1.2.3.4");
+    if (form->patient_id) put_text(&f, 0x10, 0x20, "LO", form->patient_id);
+    if (form->trigger_time) put_text(&f, 0x18, 0x1060, "DS", form->trigger_time);
+    put_text(&f, 0x20, 0x0E, "UI", form->series_uid ? form->series_uid : "1.2.3.4");
     snprintf(text, sizeof text, "%d", form->instance);
     put_text(&f, 0x20, 0x13, "IS", text);
     snprintf(text, sizeof text, "-1\\-2\\%g", form->z);
     if (!form->no_position) put_text(&f, 0x20, 0x32, "DS", form->position ? form->position : text);
     if (!form->no_orientation)
         put_text(&f, 0x20, 0x37, "DS", form->orientation ? form->orientation : "1\\0\\0\\0\\1\\0");
+    snprintf(text, sizeof text, "%d", form->temporal_position);
+    if (form->temporal_position) put_text(&f, 0x20, 0x100, "IS", text);
     if (form->no_image) {
         write_small(name, &f, 0);
         return;
