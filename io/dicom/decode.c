@@ -56,13 +56,13 @@ bool ang_dicom_rle(const uint8_t *stream, size_t length, size_t count, int bytes
     return true;
 }
 
-/* The fragments of the only frame, joined (PS3.5 annex A.4); the basic offset table comes first and is not needed. */
+/* The fragments of the frame, joined (PS3.5 annex A.4). */
 static uint8_t *read_fragments(int fd, const ang_dicom_slice *slice, uint64_t file_size, size_t *length,
                                const char *label, ang_error *err) {
     uint8_t *stream = NULL, head[8];
-    uint64_t at = slice->pixel_offset;
+    uint64_t at = slice->pixel_offset, end = at + slice->pixel_length;
     *length = 0;
-    for (int item = 0;; item++) {
+    while (at < end) {
         if (at > file_size || file_size - at < 8 || !read_all(fd, head, 8, at)) break; /* no delimiter: what there is */
         uint32_t size = little32(head + 4);
         if (head[0] != 0xFE || head[1] != 0xFF || head[2] != 0x00 || head[3] != 0xE0) break;
@@ -71,7 +71,7 @@ static uint8_t *read_fragments(int fd, const ang_dicom_slice *slice, uint64_t fi
             ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is cut off", label);
             goto failed;
         }
-        if (item > 0 && size > 0) {
+        if (size > 0) {
             uint8_t *grown = *length + size < UINT32_MAX ? realloc(stream, *length + size + 1) : NULL;
             if (!grown) {
                 ang_fail(err, ANG_LIMIT, "%s: no memory for its compressed pixels", label);

@@ -91,6 +91,7 @@ typedef struct header_job {
     const ang_progress *progress;
     ang_dicom_reader *readers; /* per worker */
     ang_dicom_slice *slices;   /* per file */
+    ang_dicom_slice **frames;  /* per file: of a multi-frame image */
     ang_dicom_found *found;
     char **errors;
     atomic_size_t done;
@@ -104,14 +105,31 @@ static void read_headers(void *context, size_t begin, size_t end, int worker) {
         ang_error why = {0};
         job->slices[i].file = i;
         job->found[i] = ang_dicom_header(job->folder->paths[i], job->folder->labels[i], &job->readers[worker],
-                                         &job->slices[i], &why);
+                                         &job->slices[i], &job->frames[i], &why);
         if (job->found[i] == ANG_DICOM_BROKEN) job->errors[i] = strdup(why.message);
         double share = (double)(atomic_fetch_add(&job->done, 1) + 1) / (double)job->folder->count;
         if (!ang_progress_update(job->progress, "reading headers", share)) atomic_store(&job->stop, true);
     }
 }
 
-static void sum_up(ang_dicom_folder *folder, header_job *job, ang_notes *warnings) {
+/* One record for each picture of the files that can be read. */
+static bool collect_slices(ang_dicom_folder *folder, const header_job *job, ang_error *err) {
+    size_t count = 0;
+    for (size_t i = 0; i < folder->count; i++)
+        if (job->found[i] == ANG_DICOM_FOUND) count += job->frames[i] ? (size_t)job->slices[i].frames : 1;
+    folder->slices = ang_alloc(count ? count : 1, sizeof *folder->slices, "headers", err);
+    if (!folder->slices) return false;
+    for (size_t i = 0; i < folder->count; i++) {
+        size_t frames = job->frames[i] ? (size_t)job->slices[i].frames : 1;
+        if (job->found[i] != ANG_DICOM_FOUND) continue;
+        memcpy(folder->slices + folder->slice_count, job->frames[i] ? job->frames[i] : &job->slices[i],
+               frames * sizeof *folder->slices);
+        folder->slice_count += frames;
+    }
+    return true;
+}
+
+static void sum_up(ang_dicom_folder *folder, const header_job *job, ang_notes *warnings) {
     for (size_t i = 0; i < folder->count; i++) {
         if (job->found[i] == ANG_DICOM_FOREIGN) folder->foreign++;
         if (job->found[i] == ANG_DICOM_BROKEN) {
@@ -119,7 +137,6 @@ static void sum_up(ang_dicom_folder *folder, header_job *job, ang_notes *warning
             if (folder->broken++ == 0) snprintf(folder->first_error, sizeof folder->first_error, "%s", why);
             if (folder->broken <= most_warnings) ang_dicom_warn_file(warnings, folder->labels[i], why);
         }
-        if (job->found[i] == ANG_DICOM_FOUND) folder->slices[folder->slice_count++] = job->slices[i];
     }
     if (folder->broken > most_warnings)
         ang_notes_add(warnings, "%zu more file%s cannot be read", folder->broken - most_warnings,
@@ -164,14 +181,17 @@ bool ang_dicom_read_folder(const char *const *paths, size_t count, int threads, 
     job.slices = ang_alloc(folder->count, sizeof *job.slices, "headers", err);
     job.found = ang_alloc(folder->count, sizeof *job.found, "headers", err);
     job.errors = ang_alloc(folder->count, sizeof *job.errors, "headers", err);
-    folder->slices = ang_alloc(folder->count, sizeof *folder->slices, "headers", err);
-    bool ok = folder->labels && job.readers && job.slices && job.found && job.errors && folder->slices;
+    job.frames = ang_alloc(folder->count, sizeof *job.frames, "headers", err);
+    bool ok = folder->labels && job.readers && job.slices && job.found && job.errors && job.frames;
     if (ok) {
         ang_parallel_for(folder->count, 8, threads, read_headers, &job);
         if (job.stop) ok = ang_fail(err, ANG_INTERRUPTED, "interrupted while reading headers");
     }
+    ok = ok && collect_slices(folder, &job, err);
     if (ok) sum_up(folder, &job, warnings);
     for (size_t i = 0; job.errors && i < folder->count; i++) free(job.errors[i]);
+    for (size_t i = 0; job.frames && i < folder->count; i++) free(job.frames[i]);
+    free(job.frames);
     free(job.readers);
     free(job.slices);
     free(job.found);

@@ -12,7 +12,7 @@ typedef struct ang_dicom_folder {
     char **paths;        /* sorted */
     const char **labels; /* base name of each, for messages */
     size_t count;
-    ang_dicom_slice *slices; /* of the DICOM files that can be read, in order of path */
+    ang_dicom_slice *slices; /* of the pictures in the DICOM files that can be read, in order of path */
     size_t slice_count;
     size_t foreign; /* files that are no DICOM */
     size_t broken;  /* DICOM files that cannot be read */

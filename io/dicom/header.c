@@ -1,5 +1,8 @@
 #include "io/dicom/header.h"
 
+#include "io/dicom/attributes.h"
+#include "io/dicom/fragments.h"
+#include "io/dicom/frames.h"
 #include "io/dicom/stream.h"
 #include "io/dicom/terms.h"
 #include "io/text.h"
@@ -9,13 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TAG(group, element) ((uint32_t)(group) << 16 | (element))
-
 /* What the loop over the elements has seen; the record holds the rest. */
 typedef struct seen {
     bool rows, columns, bits_allocated, bits_stored, high_bit, representation;
-    bool pixels, float_pixels, functional_groups;
+    bool pixels, float_pixels;
     uint32_t pixel_length;
+    ang_dicom_multi_frame multi; /* what describes the frames */
     char character_set[65];
     char acquisition_date[17], content_date[17], acquisition_time[21], content_time[21];
 } seen;
@@ -69,95 +71,65 @@ static void take_words(ang_dicom_reader *r, const ang_dicom_element *e, const ch
 
 static void take_identity(ang_dicom_reader *r, const ang_dicom_element *e, ang_dicom_slice *s, seen *seen) {
     switch (e->tag) {
-    case TAG(0x0008, 0x0005):
+    case ANG_DICOM_TAG(0x0008, 0x0005):
         ang_dicom_text(r, e, seen->character_set, sizeof seen->character_set);
         break;
-    case TAG(0x0008, 0x0008):
+    case ANG_DICOM_TAG(0x0008, 0x0008):
         ang_dicom_text(r, e, s->image_type, sizeof s->image_type);
         break;
-    case TAG(0x0008, 0x0016):
+    case ANG_DICOM_TAG(0x0008, 0x0016):
         ang_dicom_text(r, e, s->sop_class, sizeof s->sop_class);
         break;
-    case TAG(0x0008, 0x0022):
+    case ANG_DICOM_TAG(0x0008, 0x0022):
         ang_dicom_text(r, e, seen->acquisition_date, sizeof seen->acquisition_date);
         break;
-    case TAG(0x0008, 0x0023):
+    case ANG_DICOM_TAG(0x0008, 0x0023):
         ang_dicom_text(r, e, seen->content_date, sizeof seen->content_date);
         break;
-    case TAG(0x0008, 0x0032):
+    case ANG_DICOM_TAG(0x0008, 0x0032):
         ang_dicom_text(r, e, seen->acquisition_time, sizeof seen->acquisition_time);
         break;
-    case TAG(0x0008, 0x0033):
+    case ANG_DICOM_TAG(0x0008, 0x0033):
         ang_dicom_text(r, e, seen->content_time, sizeof seen->content_time);
         break;
-    case TAG(0x0008, 0x0060):
+    case ANG_DICOM_TAG(0x0008, 0x0060):
         ang_dicom_text(r, e, s->modality, sizeof s->modality);
         break;
-    case TAG(0x0008, 0x103E):
+    case ANG_DICOM_TAG(0x0008, 0x103E):
         take_words(r, e, seen->character_set, s->description);
         break;
-    case TAG(0x0010, 0x0010):
+    case ANG_DICOM_TAG(0x0010, 0x0010):
         take_words(r, e, seen->character_set, s->patient);
         break;
-    case TAG(0x0010, 0x0020):
+    case ANG_DICOM_TAG(0x0010, 0x0020):
         ang_dicom_text(r, e, s->patient_id, sizeof s->patient_id);
         break;
-    case TAG(0x0020, 0x000E):
+    case ANG_DICOM_TAG(0x0020, 0x000E):
         ang_dicom_text(r, e, s->series_uid, sizeof s->series_uid);
         break;
-    case TAG(0x0020, 0x0011):
+    case ANG_DICOM_TAG(0x0020, 0x0011):
         s->has_series_number = integer(r, e, &s->series_number);
         break;
-    case TAG(0x0020, 0x0012):
+    case ANG_DICOM_TAG(0x0020, 0x0012):
         s->has_acquisition_number = integer(r, e, &s->acquisition_number);
         break;
-    case TAG(0x0020, 0x0013):
+    case ANG_DICOM_TAG(0x0020, 0x0013):
         s->has_instance_number = integer(r, e, &s->instance_number);
         break;
-    case TAG(0x0020, 0x0100):
+    case ANG_DICOM_TAG(0x0020, 0x0100):
         s->has_temporal_position = integer(r, e, &s->temporal_position);
         break;
-    case TAG(0x0020, 0x9056):
+    case ANG_DICOM_TAG(0x0020, 0x9161):
+        ang_dicom_text(r, e, s->object, sizeof s->object);
+        break;
+    case ANG_DICOM_TAG(0x0020, 0x9222):
+        seen->multi.dimensions = *e;
+        break;
+    case ANG_DICOM_TAG(0x0020, 0x9228):
+        seen->multi.first_frame = *e;
+        break;
+    case ANG_DICOM_TAG(0x0020, 0x9056):
         ang_dicom_text(r, e, s->stack_id, sizeof s->stack_id);
-        break;
-    default:
-        break;
-    }
-}
-
-static void take_geometry(ang_dicom_reader *r, const ang_dicom_element *e, ang_dicom_slice *s) {
-    double v[6];
-    switch (e->tag) {
-    case TAG(0x0018, 0x0050):
-        s->has_thickness = ang_dicom_numbers(r, e, &s->thickness, 1) == 1;
-        break;
-    case TAG(0x0018, 0x0088):
-        s->has_slice_distance = ang_dicom_numbers(r, e, &s->slice_distance, 1) == 1;
-        break;
-    case TAG(0x0018, 0x1060):
-        s->has_trigger_time = ang_dicom_numbers(r, e, &s->trigger_time, 1) == 1;
-        break;
-    case TAG(0x0018, 0x1120):
-        s->has_tilt = ang_dicom_numbers(r, e, &s->tilt, 1) == 1;
-        break;
-    case TAG(0x0020, 0x0032):
-        if ((s->has_position = ang_dicom_numbers(r, e, v, 3) == 3)) s->position = (ang_vec3){v[0], v[1], v[2]};
-        s->bad_position = !s->has_position && e->length > 0;
-        break;
-    case TAG(0x0020, 0x0037):
-        if ((s->has_orientation = ang_dicom_numbers(r, e, v, 6) == 6)) {
-            s->row = (ang_vec3){v[0], v[1], v[2]};
-            s->column = (ang_vec3){v[3], v[4], v[5]};
-        }
-        s->bad_orientation = !s->has_orientation && e->length > 0;
-        break;
-    case TAG(0x0028, 0x0030):
-        s->has_spacing = ang_dicom_numbers(r, e, v, 2) == 2 && v[0] > 0 && v[1] > 0;
-        s->bad_spacing = !s->has_spacing && e->length > 0;
-        if (s->has_spacing) {
-            s->row_spacing = v[0];
-            s->column_spacing = v[1];
-        }
         break;
     default:
         break;
@@ -168,66 +140,57 @@ static void take_pixels(ang_dicom_reader *r, const ang_dicom_element *e, ang_dic
     int number = 0;
     char text[17];
     switch (e->tag) {
-    case TAG(0x0028, 0x0002):
+    case ANG_DICOM_TAG(0x0028, 0x0002):
         word(r, e, &s->samples);
         break;
-    case TAG(0x0028, 0x0004):
+    case ANG_DICOM_TAG(0x0028, 0x0004):
         ang_dicom_text(r, e, s->photometric, sizeof s->photometric);
         break;
-    case TAG(0x0028, 0x0008):
+    case ANG_DICOM_TAG(0x0028, 0x0008):
         if (integer(r, e, &number)) s->frames = number;
         break;
-    case TAG(0x0028, 0x0010):
+    case ANG_DICOM_TAG(0x0028, 0x0010):
         seen->rows = word(r, e, &s->rows);
         break;
-    case TAG(0x0028, 0x0011):
+    case ANG_DICOM_TAG(0x0028, 0x0011):
         seen->columns = word(r, e, &s->columns);
         break;
-    case TAG(0x0028, 0x0100):
+    case ANG_DICOM_TAG(0x0028, 0x0100):
         seen->bits_allocated = word(r, e, &s->bits_allocated);
         break;
-    case TAG(0x0028, 0x0101):
+    case ANG_DICOM_TAG(0x0028, 0x0101):
         seen->bits_stored = word(r, e, &s->bits_stored);
         break;
-    case TAG(0x0028, 0x0102):
+    case ANG_DICOM_TAG(0x0028, 0x0102):
         seen->high_bit = word(r, e, &s->high_bit);
         break;
-    case TAG(0x0028, 0x0103):
+    case ANG_DICOM_TAG(0x0028, 0x0103):
         seen->representation = word(r, e, &number);
         s->is_signed = number == 1;
         break;
-    case TAG(0x0028, 0x0120):
+    case ANG_DICOM_TAG(0x0028, 0x0120):
         s->has_padding = ang_dicom_word(r, e, &s->padding);
         break;
-    case TAG(0x0028, 0x0121):
+    case ANG_DICOM_TAG(0x0028, 0x0121):
         s->has_padding_limit = ang_dicom_word(r, e, &s->padding_limit);
         break;
-    case TAG(0x0028, 0x1050):
-        s->has_window = ang_dicom_numbers(r, e, &s->window_centre, 1) == 1;
-        break;
-    case TAG(0x0028, 0x1051):
-        if (ang_dicom_numbers(r, e, &s->window_width, 1) != 1) s->has_window = false;
-        break;
-    case TAG(0x0028, 0x1052):
-        s->has_intercept = ang_dicom_numbers(r, e, &s->intercept, 1) == 1;
-        s->bad_intercept = !s->has_intercept && e->length > 0;
-        break;
-    case TAG(0x0028, 0x1053):
-        s->has_slope = ang_dicom_numbers(r, e, &s->slope, 1) == 1;
-        s->bad_slope = !s->has_slope && e->length > 0;
-        break;
-    case TAG(0x0028, 0x2110):
+    case ANG_DICOM_TAG(0x0028, 0x2110):
         s->lossy = ang_dicom_text(r, e, text, sizeof text) && strcmp(text, "01") == 0;
         break;
-    case TAG(0x5200, 0x9229):
-    case TAG(0x5200, 0x9230):
-        seen->functional_groups = true;
+    case ANG_DICOM_TAG(0x5200, 0x9229):
+        seen->multi.shared = *e;
         break;
-    case TAG(0x7FE0, 0x0008):
-    case TAG(0x7FE0, 0x0009):
+    case ANG_DICOM_TAG(0x5200, 0x9230):
+        seen->multi.per_frame = *e;
+        break;
+    case ANG_DICOM_TAG(0x7FE0, 0x0001):
+        seen->multi.offsets = *e;
+        break;
+    case ANG_DICOM_TAG(0x7FE0, 0x0008):
+    case ANG_DICOM_TAG(0x7FE0, 0x0009):
         seen->float_pixels = true;
         break;
-    case TAG(0x7FE0, 0x0010):
+    case ANG_DICOM_TAG(0x7FE0, 0x0010):
         seen->pixels = true;
         seen->pixel_length = e->length;
         s->pixel_offset = e->offset;
@@ -243,13 +206,16 @@ static void join(char *out, size_t size, const char *date, const char *time) {
 
 static bool starts(const char *text, const char *prefix) { return strncmp(text, prefix, strlen(prefix)) == 0; }
 
+static bool has_groups(const seen *seen) { return seen->multi.shared.tag || seen->multi.per_frame.tag; }
+
 /* True where the file is an image of pixels; else says what it is instead. */
 static bool check_kind(ang_dicom_slice *s, const seen *seen) {
     const char *what = ang_dicom_modality(s->modality);
     if (strcmp(what, "other") == 0) what = ang_dicom_class_name(s->sop_class);
-    if (seen->functional_groups || s->frames > 1) {
+    if (s->frames > 1 && !has_groups(seen)) {
         s->image = true;
-        snprintf(s->refusal, sizeof s->refusal, "multi-frame image (%d frames): not read yet", s->frames);
+        snprintf(s->refusal, sizeof s->refusal, "multi-frame image (%d frames) without functional groups: not read",
+                 s->frames);
     } else if (seen->float_pixels) {
         s->image = true;
         snprintf(s->refusal, sizeof s->refusal, "pixels in floating point: not read yet");
@@ -276,23 +242,6 @@ static bool find_coding(ang_dicom_slice *s, const ang_dicom_reader *reader, bool
         if (kind < 50 || kind > 93) return false;
     }
     return true;
-}
-
-/* A JPEG 2000 stream's precision and sign win over a wrong header (rule 9). The stream follows the item of the basic
- * offset table and its own item's head. */
-static void adopt_jpeg2000(ang_dicom_slice *s, ang_dicom_reader *reader) {
-    const uint8_t *head = ang_dicom_bytes(reader, s->pixel_offset, 8);
-    uint32_t table = head ? (uint32_t)head[7] << 24 | (uint32_t)head[6] << 16 | (uint32_t)head[5] << 8 | head[4] : 0;
-    uint64_t at = s->pixel_offset + 16 + table;
-    size_t length = 512;
-    if (at < reader->size && reader->size - at < length) length = (size_t)(reader->size - at);
-    const uint8_t *stream = head ? ang_dicom_bytes(reader, at, length) : NULL;
-    ang_dicom_stream header;
-    if (!stream || !ang_dicom_stream_header(stream, length, &header) || !header.jpeg2000) return;
-    if (header.precision > 16 || header.precision > s->bits_allocated) return;
-    s->bits_stored = header.precision;
-    s->high_bit = header.precision - 1;
-    s->is_signed = s->is_signed || header.is_signed;
 }
 
 /* What an image must have, against what the file holds: nothing is allocated for a claim that the file cannot keep. */
@@ -327,31 +276,68 @@ static bool check_pixels(ang_dicom_slice *s, const seen *seen, ang_dicom_reader 
         return true;
     }
     bool encapsulated = seen->pixel_length == ANG_DICOM_UNDEFINED;
-    uint64_t left = reader->size - s->pixel_offset, needed = ang_dicom_pixel_bytes(s);
+    if (has_groups(seen) && (s->frames < 1 || s->frames > ang_dicom_most_frames))
+        return ang_fail(err, ANG_INPUT, "%s: (0028,0008) NumberOfFrames is %d: 1 to %d are read", label, s->frames,
+                        ang_dicom_most_frames);
+    uint64_t left = reader->size - s->pixel_offset, frames = has_groups(seen) ? (uint64_t)s->frames : 1;
+    uint64_t frame = ang_dicom_pixel_bytes(s), needed = frames * frame;
+    const char *claim = frames > 1 ? "Rows x Columns x NumberOfFrames" : "Rows x Columns";
     if (!find_coding(s, reader, encapsulated)) {
         snprintf(s->refusal, sizeof s->refusal, "transfer syntax %.40s: not supported", s->transfer_syntax);
         return true;
     }
-    s->pixel_length = encapsulated ? left : needed;
+    s->pixel_length = encapsulated ? left : frame;
     if (encapsulated) {
         /* No codec packs a picture 4096 times: such a claim would only cost memory. */
         if (needed / 4096 > left + 4096)
-            return ang_fail(err, ANG_INPUT, "%s: %d x %d pixels cannot be in %llu bytes of (7FE0,0010) PixelData",
-                            label, s->columns, s->rows, (unsigned long long)left);
-        if (s->coding == ANG_DICOM_ENCAPSULATED) adopt_jpeg2000(s, reader);
+            return ang_fail(err, ANG_INPUT,
+                            "%s: %llu x %d x %d pixels cannot be in %llu bytes of (7FE0,0010) PixelData", label,
+                            (unsigned long long)frames, s->columns, s->rows, (unsigned long long)left);
         return true;
     }
     if (seen->pixel_length < needed && seen->pixel_length <= left)
-        return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData has %u bytes, Rows x Columns need %llu", label,
-                        seen->pixel_length, (unsigned long long)needed);
+        return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData has %u bytes, %s need %llu", label,
+                        seen->pixel_length, claim, (unsigned long long)needed);
     if (left < needed)
         return ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is cut off: %llu of %llu bytes", label,
                         (unsigned long long)left, (unsigned long long)needed);
     return true;
 }
 
+/* Where the pixels of every frame lie; `*frames` stays NULL for an ordinary image. */
+static bool find_frames(ang_dicom_slice *s, const seen *seen, ang_dicom_reader *reader, const char *label,
+                        ang_dicom_slice **frames, ang_error *err) {
+    bool encapsulated = seen->pixel_length == ANG_DICOM_UNDEFINED;
+    if (!has_groups(seen)) {
+        s->frames = 1;
+        if (!encapsulated) return true;
+        if (!ang_dicom_first_fragment(reader, &s->pixel_offset, label, err)) return false;
+        s->pixel_length = reader->size - s->pixel_offset;
+        if (s->coding == ANG_DICOM_ENCAPSULATED) ang_dicom_adopt_jpeg2000(s, reader);
+        return true;
+    }
+    static const uint64_t most_inflated = UINT64_C(1) << 28; /* every frame is inflated from the start */
+    if (reader->memory && (uint64_t)s->frames * reader->size > most_inflated) {
+        snprintf(s->refusal, sizeof s->refusal, "deflated multi-frame image (%d frames): not read", s->frames);
+        return true;
+    }
+    *frames = ang_dicom_read_frames(reader, label, s, &seen->multi, err);
+    bool ok = *frames != NULL;
+    if (ok && encapsulated) ok = ang_dicom_locate_frames(reader, label, &seen->multi.offsets, *frames, s->frames, err);
+    for (int i = 0; ok && i < s->frames; i++) {
+        ang_dicom_slice *frame = &(*frames)[i];
+        if (!encapsulated) frame->pixel_offset += (uint64_t)i * ang_dicom_pixel_bytes(s);
+        if (frame->coding == ANG_DICOM_ENCAPSULATED) ang_dicom_adopt_jpeg2000(frame, reader);
+    }
+    if (ok) return true;
+    free(*frames);
+    *frames = NULL;
+    return false;
+}
+
 ang_dicom_found ang_dicom_header(const char *path, const char *label, ang_dicom_reader *reader, ang_dicom_slice *slice,
-                                 ang_error *err) {
+                                 ang_dicom_slice **frames, ang_error *err) {
+    *frames = NULL;
     ang_dicom_found found = ang_dicom_open(reader, path, label, err);
     if (found != ANG_DICOM_FOUND) {
         ang_dicom_close(reader);
@@ -366,7 +352,8 @@ ang_dicom_found ang_dicom_header(const char *path, const char *label, ang_dicom_
     for (ang_dicom_element element; ang_dicom_next(reader, &element); count++) {
         uint32_t group = element.tag >> 16;
         if (group == 0x0008 || group == 0x0010 || group == 0x0020) take_identity(reader, &element, slice, &seen);
-        if (group == 0x0018 || group == 0x0020 || group == 0x0028) take_geometry(reader, &element, slice);
+        if (group == 0x0018 || group == 0x0020 || group == 0x0028) ang_dicom_take_geometry(reader, &element, slice);
+        if (group == 0x0028) ang_dicom_take_map(reader, &element, slice);
         if (group >= 0x0028) take_pixels(reader, &element, slice, &seen);
     }
     join(slice->acquisition_time, sizeof slice->acquisition_time, seen.acquisition_date, seen.acquisition_time);
@@ -381,7 +368,8 @@ ang_dicom_found ang_dicom_header(const char *path, const char *label, ang_dicom_
                       reader->truncated ? " and the file is cut off" : "");
     } else if (check_kind(slice, &seen)) {
         slice->image = true;
-        ok = check_pixels(slice, &seen, reader, label, err);
+        ok = check_pixels(slice, &seen, reader, label, err) &&
+             (slice->refusal[0] || find_frames(slice, &seen, reader, label, frames, err));
     }
     ang_dicom_close(reader);
     return ok ? found : ANG_DICOM_BROKEN;

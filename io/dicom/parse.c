@@ -1,10 +1,10 @@
 #include "io/dicom/parse.h"
 
 #include "core/base/memory.h"
+#include "io/dicom/bytes.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -12,8 +12,6 @@
 #include <zlib.h>
 
 enum { max_depth = 32 };
-
-#define TAG(group, element) ((uint32_t)(group) << 16 | (element))
 
 const uint8_t *ang_dicom_bytes(ang_dicom_reader *reader, uint64_t offset, size_t length) {
     if (length > ang_dicom_value_size || offset > reader->size || reader->size - offset < length) return NULL;
@@ -33,15 +31,6 @@ const uint8_t *ang_dicom_bytes(ang_dicom_reader *reader, uint64_t offset, size_t
     return reader->window + (offset - reader->window_at);
 }
 
-static uint16_t get16(const uint8_t *p, bool big) {
-    return big ? (uint16_t)(p[0] << 8 | p[1]) : (uint16_t)(p[1] << 8 | p[0]);
-}
-
-static uint32_t get32(const uint8_t *p, bool big) {
-    return big ? (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3]
-               : (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
-}
-
 static bool is_vr(const uint8_t *p) { return p[0] >= 'A' && p[0] <= 'Z' && p[1] >= 'A' && p[1] <= 'Z'; }
 
 static bool one_of(const uint8_t *vr, const char *list) {
@@ -58,8 +47,9 @@ static bool is_short_vr(const uint8_t *vr) { return one_of(vr, "AEASATCSDADSDTFL
 static bool read_head(ang_dicom_reader *reader, bool is_explicit, bool big, uint64_t at, ang_dicom_element *element) {
     const uint8_t *p = ang_dicom_bytes(reader, at, 8);
     if (!p) return false;
-    element->tag = TAG(get16(p, big), get16(p + 2, big));
+    element->tag = ANG_DICOM_TAG(get16(p, big), get16(p + 2, big));
     element->vr[0] = 0;
+    element->big_endian = big;
     element->offset = at + 8;
     element->length = get32(p + 4, big);
     if (element->tag >> 16 == 0xFFFE) return true;
@@ -77,6 +67,26 @@ static bool read_head(ang_dicom_reader *reader, bool is_explicit, bool big, uint
     return true;
 }
 
+static uint64_t skip_sequence(ang_dicom_reader *reader, uint64_t at, bool is_explicit, bool big, int depth);
+
+/* Steps over the elements of an item of undefined length; returns the offset behind its delimiter, or 0. */
+static uint64_t skip_item(ang_dicom_reader *reader, uint64_t at, bool is_explicit, bool big, int depth) {
+    for (;;) {
+        ang_dicom_element inner;
+        if (!read_head(reader, is_explicit, big, at, &inner)) return 0;
+        at = inner.offset;
+        if (inner.tag == ANG_DICOM_TAG(0xFFFE, 0xE00D)) return at;
+        if (inner.length == ANG_DICOM_UNDEFINED) {
+            bool unknown = strcmp(inner.vr, "UN") == 0; /* PS3.5 6.2.2: implicit little endian inside */
+            at = skip_sequence(reader, at, is_explicit && !unknown, big && !unknown, depth + 1);
+            if (!at) return 0;
+        } else {
+            if (inner.length > reader->size - at) return 0;
+            at += inner.length;
+        }
+    }
+}
+
 /* Steps over the items of a sequence of undefined length; returns the offset behind its delimiter, or 0. */
 static uint64_t skip_sequence(ang_dicom_reader *reader, uint64_t at, bool is_explicit, bool big, int depth) {
     if (depth > max_depth) return 0;
@@ -84,26 +94,14 @@ static uint64_t skip_sequence(ang_dicom_reader *reader, uint64_t at, bool is_exp
         ang_dicom_element item;
         if (!read_head(reader, is_explicit, big, at, &item)) return 0;
         at = item.offset;
-        if (item.tag == TAG(0xFFFE, 0xE0DD)) return at;
-        if (item.tag != TAG(0xFFFE, 0xE000)) return 0;
-        if (item.length != ANG_DICOM_UNDEFINED) {
+        if (item.tag == ANG_DICOM_TAG(0xFFFE, 0xE0DD)) return at;
+        if (item.tag != ANG_DICOM_TAG(0xFFFE, 0xE000)) return 0;
+        if (item.length == ANG_DICOM_UNDEFINED) {
+            at = skip_item(reader, at, is_explicit, big, depth);
+            if (!at) return 0;
+        } else {
             if (item.length > reader->size - at) return 0;
             at += item.length;
-            continue;
-        }
-        for (;;) {
-            ang_dicom_element inner;
-            if (!read_head(reader, is_explicit, big, at, &inner)) return 0;
-            at = inner.offset;
-            if (inner.tag == TAG(0xFFFE, 0xE00D)) break;
-            if (inner.length == ANG_DICOM_UNDEFINED) {
-                bool unknown = strcmp(inner.vr, "UN") == 0; /* PS3.5 6.2.2: implicit little endian inside */
-                at = skip_sequence(reader, at, is_explicit && !unknown, big && !unknown, depth + 1);
-                if (!at) return 0;
-            } else {
-                if (inner.length > reader->size - at) return 0;
-                at += inner.length;
-            }
         }
     }
 }
@@ -119,8 +117,8 @@ bool ang_dicom_next(ang_dicom_reader *reader, ang_dicom_element *element) {
         if (element->tag >> 16 != 0xFFFE) break;
         reader->next = element->offset; /* a stray delimiter */
     }
-    if (element->tag == TAG(0x7FE0, 0x0010) || element->tag == TAG(0x7FE0, 0x0008) ||
-        element->tag == TAG(0x7FE0, 0x0009)) {
+    if (element->tag == ANG_DICOM_TAG(0x7FE0, 0x0010) || element->tag == ANG_DICOM_TAG(0x7FE0, 0x0008) ||
+        element->tag == ANG_DICOM_TAG(0x7FE0, 0x0009)) {
         reader->next = reader->size; /* the pixels end what the rules need */
         return true;
     }
@@ -143,113 +141,47 @@ bool ang_dicom_next(ang_dicom_reader *reader, ang_dicom_element *element) {
     return true;
 }
 
-bool ang_dicom_text(ang_dicom_reader *reader, const ang_dicom_element *element, char *out, size_t size) {
-    out[0] = 0;
-    if (element->length == 0 || element->length > ang_dicom_value_size) return false;
-    const uint8_t *p = ang_dicom_bytes(reader, element->offset, element->length);
-    if (!p) return false;
-    size_t begin = 0, end = element->length;
-    while (begin < end && (p[begin] == ' ' || p[begin] == 0)) begin++;
-    while (end > begin && (p[end - 1] == ' ' || p[end - 1] == 0)) end--;
-    if (end - begin >= size) end = begin + size - 1;
-    memcpy(out, p + begin, end - begin);
-    out[end - begin] = 0;
-    for (char *c = out; *c; c++) {
-        if ((unsigned char)*c < ' ' || *c == 127) *c = ' ';
-    }
-    return out[0] != 0;
+ang_dicom_range ang_dicom_sequence(const ang_dicom_reader *reader, const ang_dicom_element *element) {
+    bool unknown = strcmp(element->vr, "UN") == 0;
+    bool whole = element->length != ANG_DICOM_UNDEFINED && element->length <= reader->size - element->offset;
+    return (ang_dicom_range){.next = element->offset,
+                             .end = whole ? element->offset + element->length : reader->size,
+                             .is_explicit = element->vr[0] && !unknown,
+                             .big_endian = element->big_endian && !unknown};
 }
 
-/* Numbers of a binary VR; -1 where the VR is not one. */
-static int binary_numbers(ang_dicom_reader *reader, const ang_dicom_element *element, double *out, int count) {
-    static const char codes[] = "USSSULSLFLFD";
-    int kind = -1;
-    for (int i = 0; i < 6; i++) {
-        if (memcmp(element->vr, codes + 2 * i, 2) == 0) kind = i;
+bool ang_dicom_next_item(ang_dicom_reader *reader, ang_dicom_range *sequence, ang_dicom_range *item) {
+    ang_dicom_element head;
+    if (sequence->next >= sequence->end ||
+        !read_head(reader, sequence->is_explicit, sequence->big_endian, sequence->next, &head) ||
+        head.tag != ANG_DICOM_TAG(0xFFFE, 0xE000))
+        return false;
+    *item = *sequence;
+    item->next = head.offset;
+    if (head.length != ANG_DICOM_UNDEFINED) {
+        if (head.length > sequence->end - head.offset) return false;
+        item->end = sequence->next = head.offset + head.length;
+        return true;
     }
-    if (kind < 0) return -1;
-    size_t size = kind < 2 ? 2 : kind < 5 ? 4 : 8;
-    int n = 0;
-    for (; n < count && (size_t)(n + 1) * size <= element->length; n++) {
-        const uint8_t *p = ang_dicom_bytes(reader, element->offset + (uint64_t)n * size, size);
-        if (!p) break;
-        uint32_t low = size == 2 ? get16(p, reader->big_endian) : get32(p, reader->big_endian);
-        if (kind == 0 || kind == 2) out[n] = low;
-        if (kind == 1) out[n] = (int16_t)low;
-        if (kind == 3) out[n] = (int32_t)low;
-        if (kind == 4) {
-            float value;
-            memcpy(&value, &low, sizeof value);
-            out[n] = (double)value;
-        }
-        if (kind == 5) {
-            uint32_t high = get32(p + 4, reader->big_endian);
-            uint64_t bits = reader->big_endian ? (uint64_t)low << 32 | high : (uint64_t)high << 32 | low;
-            memcpy(&out[n], &bits, sizeof bits);
-        }
-        if (!isfinite(out[n])) break;
-    }
-    return n;
-}
-
-/* One value of a decimal string, up to its backslash or the end, where *text is left. strtod would follow the locale
- * and take hexadecimal: the decimal strings of PS3.5 6.2 have neither. Nothing but blanks may follow the number: "1,5"
- * is not 1. */
-static bool decimal(const char **text, double *out) {
-    const char *p = *text;
-    while (*p == ' ') p++;
-    bool negative = *p == '-';
-    if (*p == '-' || *p == '+') p++;
-    double value = 0, scale = 1;
-    int digits = 0, exponent = 0;
-    bool point = false;
-    for (; (*p >= '0' && *p <= '9') || (*p == '.' && !point); p++) {
-        if (*p == '.') {
-            point = true;
-            continue;
-        }
-        value = value * 10 + (*p - '0');
-        if (point) scale *= 10;
-        digits++;
-    }
-    if (digits && (*p == 'e' || *p == 'E')) {
-        bool below = p[1] == '-';
-        p += p[1] == '-' || p[1] == '+' ? 2 : 1;
-        if (*p < '0' || *p > '9') return false;
-        for (; *p >= '0' && *p <= '9'; p++) exponent = exponent < 10000 ? 10 * exponent + (*p - '0') : exponent;
-        if (below) exponent = -exponent;
-    }
-    while (*p == ' ') p++;
-    if (!digits || (*p && *p != '\\')) return false;
-    value /= scale;
-    if (exponent) value *= pow(10, exponent);
-    if (!isfinite(value)) return false;
-    *out = negative ? -value : value;
-    *text = p;
+    uint64_t after = skip_item(reader, head.offset, sequence->is_explicit, sequence->big_endian, 0);
+    if (!after || after > sequence->end) return false;
+    sequence->next = item->end = after;
     return true;
 }
 
-int ang_dicom_numbers(ang_dicom_reader *reader, const ang_dicom_element *element, double *out, int count) {
-    if (element->vr[0]) {
-        int n = binary_numbers(reader, element, out, count);
-        if (n >= 0) return n;
+bool ang_dicom_next_in(ang_dicom_reader *reader, ang_dicom_range *range, ang_dicom_element *element) {
+    if (range->next >= range->end || !read_head(reader, range->is_explicit, range->big_endian, range->next, element) ||
+        element->tag >> 16 == 0xFFFE)
+        return false;
+    if (element->length == ANG_DICOM_UNDEFINED) {
+        bool unknown = strcmp(element->vr, "UN") == 0;
+        range->next =
+            skip_sequence(reader, element->offset, range->is_explicit && !unknown, range->big_endian && !unknown, 0);
+        return range->next != 0 && range->next <= range->end;
     }
-    char text[512];
-    if (!ang_dicom_text(reader, element, text, sizeof text)) return 0;
-    int n = 0;
-    for (const char *p = text; n < count; p++) {
-        if (!decimal(&p, &out[n])) break;
-        n++;
-        if (!*p) break;
-    }
-    return n;
-}
-
-bool ang_dicom_word(ang_dicom_reader *reader, const ang_dicom_element *element, uint16_t *out) {
-    if (element->length < 2) return false;
-    const uint8_t *p = ang_dicom_bytes(reader, element->offset, 2);
-    if (p) *out = get16(p, reader->big_endian);
-    return p != NULL;
+    if (element->length > range->end - element->offset) return false;
+    range->next = element->offset + element->length;
+    return true;
 }
 
 /* Whether a data set may start at `at`: a tag of group 2 or 8 with a length that fits, then another, greater tag. */
@@ -289,9 +221,9 @@ static void read_meta(ang_dicom_reader *reader) {
         const uint8_t *p = ang_dicom_bytes(reader, at, 8);
         ang_dicom_element element;
         if (!p || get16(p, false) != 2 || !ang_dicom_next(reader, &element)) break;
-        if (element.tag == TAG(2, 0x0002))
+        if (element.tag == ANG_DICOM_TAG(2, 0x0002))
             ang_dicom_text(reader, &element, reader->media_class, sizeof reader->media_class);
-        if (element.tag == TAG(2, 0x0010))
+        if (element.tag == ANG_DICOM_TAG(2, 0x0010))
             ang_dicom_text(reader, &element, reader->transfer_syntax, sizeof reader->transfer_syntax);
     }
     reader->in_meta = false;

@@ -12,7 +12,8 @@
 #include <stdint.h>
 
 enum { ang_dicom_window_size = 8192, ang_dicom_value_size = 4096 };
-#define ANG_DICOM_UNDEFINED 0xFFFFFFFFu
+#define ANG_DICOM_UNDEFINED           0xFFFFFFFFu
+#define ANG_DICOM_TAG(group, element) ((uint32_t)(group) << 16 | (element))
 
 /* An open file seen through a window, or a deflated data set in memory. Large: not for the stack of small threads. */
 typedef struct ang_dicom_reader {
@@ -34,7 +35,14 @@ typedef struct ang_dicom_element {
     char vr[3];      /* two letters, or empty where implicit */
     uint32_t length; /* bytes, or ANG_DICOM_UNDEFINED */
     uint64_t offset; /* of the value */
+    bool big_endian;
 } ang_dicom_element;
+
+/* Elements or items that are still to be read. */
+typedef struct ang_dicom_range {
+    uint64_t next, end; /* offsets */
+    bool is_explicit, big_endian;
+} ang_dicom_range;
 
 typedef enum ang_dicom_found {
     ANG_DICOM_FOUND,   /* a DICOM file */
@@ -51,8 +59,17 @@ void ang_dicom_close(ang_dicom_reader *reader);
  * where the file ends inside an element. */
 bool ang_dicom_next(ang_dicom_reader *reader, ang_dicom_element *element);
 
+/* The items of a sequence that ang_dicom_next or ang_dicom_next_in has found. */
+ang_dicom_range ang_dicom_sequence(const ang_dicom_reader *reader, const ang_dicom_element *element);
+/* The next item of a sequence; false where there is none, or where it is damaged. */
+bool ang_dicom_next_item(ang_dicom_reader *reader, ang_dicom_range *sequence, ang_dicom_range *item);
+/* The next element of an item; sequences are stepped over. False at its end, or where it is damaged. */
+bool ang_dicom_next_in(ang_dicom_reader *reader, ang_dicom_range *range, ang_dicom_element *element);
+
 /* `length` <= ang_dicom_value_size bytes at `offset`, valid until the next call; NULL beyond the end. */
 const uint8_t *ang_dicom_bytes(ang_dicom_reader *reader, uint64_t offset, size_t length);
+/* Gives an element whose VR the file does not know the one of the dictionary, "UL". */
+void ang_dicom_assume_vr(ang_dicom_element *element, const char *vr);
 /* The value as a trimmed string; false where it is empty or too long for `size`. */
 bool ang_dicom_text(ang_dicom_reader *reader, const ang_dicom_element *element, char *out, size_t size);
 /* Numbers of a decimal or integer string, or of US, SS, UL, SL, FL, FD where the VR says so; returns how many (at most

@@ -37,15 +37,30 @@ static void note_first(const ang_dicom_slice *first, ang_notes *assumptions, ang
         ang_notes_add(assumptions, "RescaleSlope is negative: stored values were turned over, the result is the same");
     if (strcmp(first->photometric, "MONOCHROME1") == 0)
         ang_notes_add(assumptions, "MONOCHROME1 is a matter of display: values are as stored");
-    if (first->lossy) ang_notes_add(warnings, "the pictures were compressed with loss: values are approximate");
     uint16_t low, high;
     if (first->has_padding && !ang_dicom_padding(first, &low, &high))
         ang_notes_add(assumptions, "the declared padding value %u does not fit %d stored bits: ignored", first->padding,
                       first->bits_stored);
 }
 
+/* What the first slice need not say: it may be any of them. */
+static void note_any(const ang_dicom_slice *slices, const ang_dicom_group *group, ang_notes *warnings) {
+    bool unit = false, offsets = false, lossy = false;
+    for (size_t i = 0; i < group->count; i++) {
+        const ang_dicom_slice *slice = &slices[group->order[i]];
+        unit = unit || (slice->other_unit && strcmp(slice->modality, "CT") == 0);
+        offsets = offsets || slice->wrong_offsets;
+        lossy = lossy || slice->lossy;
+    }
+    if (lossy) ang_notes_add(warnings, "the pictures were compressed with loss: values are approximate");
+    if (unit) ang_notes_add(warnings, "(0028,1054) RescaleType is not HU: values may not be Hounsfield units");
+    if (offsets)
+        ang_notes_add(warnings, "(7FE0,0010) PixelData: the table of frames is wrong; its fragments tell them apart");
+}
+
 void ang_dicom_note_values(const ang_dicom_slice *slices, const ang_dicom_group *group, ang_notes *assumptions,
                            ang_notes *warnings) {
     note_bad_rescale(slices, group, warnings);
     note_first(&slices[group->order[0]], assumptions, warnings);
+    note_any(slices, group, warnings);
 }

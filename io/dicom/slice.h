@@ -48,6 +48,8 @@ typedef struct ang_dicom_slice {
     int bits_allocated, bits_stored, high_bit;
     ang_dicom_coding coding;
     bool is_signed, lossy;
+    bool other_unit;    /* RescaleType is there and not HU */
+    bool wrong_offsets; /* the table of its frames' offsets is wrong and was not used */
 
     bool has_position, has_orientation, has_spacing, has_thickness, has_slice_distance, has_tilt;
     bool bad_spacing; /* PixelSpacing is there, but not two numbers > 0; has_spacing is false */
@@ -65,9 +67,9 @@ typedef struct ang_dicom_slice {
     double slope, intercept;            /* as in the file; 0 where absent */
     double window_centre, window_width; /* the first values */
 
-    uint64_t pixel_offset; /* bytes from the file's start (from the data set's start where deflated) to the pixel value
-                              or, encapsulated, to the basic offset table's item */
-    uint64_t pixel_length; /* bytes; to the end of the file where encapsulated */
+    uint64_t pixel_offset; /* bytes from the file's start (from the data set's start where deflated) to the pixels or,
+                              encapsulated, to the head of their first fragment's item */
+    uint64_t pixel_length; /* bytes; encapsulated: of the fragments with their heads, at most to the end of the file */
 } ang_dicom_slice;
 
 /* Copies value `index` (0-based) of a multi-valued string into `out`; empty where there is none. */
