@@ -2,6 +2,7 @@
 
 #include "core/transfer/transfer.h"
 #include "io/dicom/dicom.h"
+#include "io/dicom/directory.h"
 #include "io/formats.h"
 #include "io/replace.h"
 
@@ -111,11 +112,12 @@ static ang_volume *dispatch(const char *path, const ang_load_options *options, a
         return NULL;
     }
     if (!folder && options->raw_dims) return load_raw(path, options, report, progress, err);
-    if (!folder && status.st_size == 0) {
+    bool dicom = folder || ang_dicom_probe(path);
+    if (!dicom && status.st_size == 0) {
         ang_fail(err, ANG_INPUT, "%s: is empty", label);
         return NULL;
     }
-    if (folder || ang_dicom_probe(path)) {
+    if (dicom) {
         if (!refuse_raw_options(label, folder ? "a folder" : "DICOM", options, err)) return NULL;
         return ang_dicom_load(&path, 1, options, report, progress, err);
     }
@@ -171,7 +173,14 @@ bool ang_load_reads(const char *input, const char *path) {
     struct stat status;
     if (stat(path, &status) != 0 || !S_ISREG(status.st_mode)) return false;
     if (ang_file_same(input, path)) return true;
-    if (stat(input, &status) == 0 && S_ISDIR(status.st_mode)) return lies_in(input, path) && ang_dicom_probe(path);
+    bool folder = stat(input, &status) == 0 && S_ISDIR(status.st_mode);
+    if (folder) return lies_in(input, path) && ang_dicom_probe(path);
+    if (ang_dicom_is_directory(input)) {
+        char *around = ang_dicom_folder_of(input);
+        bool read = around && lies_in(around, path) && ang_dicom_probe(path);
+        free(around);
+        return read;
+    }
     char *sidecar = ang_raw_sidecar(input);
     bool same = sidecar && ang_file_same(sidecar, path);
     free(sidecar);

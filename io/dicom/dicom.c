@@ -12,8 +12,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 bool ang_dicom_probe(const char *path) {
+    if (strcasecmp(ang_base_name(path), "DICOMDIR") == 0) return true;
     ang_dicom_reader *reader = malloc(sizeof *reader);
     if (!reader) return false;
     ang_error ignored;

@@ -11,7 +11,7 @@ ang_volume *ang_dicom_load(const char *const *paths, size_t count, const ang_loa
 bool ang_dicom_survey(const char *const *paths, size_t count, const ang_load_options *options, ang_load_report *report,
                       const ang_survey_sink *sink, const ang_progress *progress, ang_error *err);
 
-/* Whether the file is DICOM, with or without preamble. */
+/* Whether the file is DICOM, with or without preamble, or has the name of a DICOMDIR. */
 bool ang_dicom_probe(const char *path);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "io/dicom/directory.h"
 #include "io/dicom/header.h"
 #include "io/formats.h"
 
@@ -11,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 enum { deepest = 32, most_warnings = 20 };
@@ -143,17 +145,60 @@ static void sum_up(ang_dicom_folder *folder, const header_job *job, ang_notes *w
                       ang_plural((long long)(folder->broken - most_warnings)));
 }
 
-/* The files at and below the paths, sorted, each once. */
-static bool find_files(const char *const *paths, size_t count, ang_dicom_folder *folder, const ang_progress *progress,
-                       ang_error *err) {
-    struct stat status;
-    size_t capacity = 0, kept = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (stat(paths[i], &status) != 0) return ang_fail(err, ANG_INPUT, "%s: %s", paths[i], strerror(errno));
-        bool ok = S_ISDIR(status.st_mode) ? list_files(paths[i], folder, &capacity, 0, progress, err)
-                                          : add_path(folder, &capacity, strdup(paths[i]), err);
-        if (!ok) return false;
+/* Adds the files that a DICOMDIR names, which moves out of it, and says what is wrong with it. */
+static bool take_index(const char *path, ang_dicom_directory *index, ang_dicom_folder *folder, size_t *capacity,
+                       ang_notes *warnings, ang_error *err) {
+    const char *label = ang_base_name(path);
+    bool ok = true;
+    if (index->damaged)
+        ang_notes_add_file(warnings, label, "this index is damaged: its folder is searched");
+    else if (index->missing > 0)
+        ang_notes_add_file(warnings, label, "this index names %zu file%s not there: its folder is searched",
+                           index->missing, index->missing == 1 ? " that is" : "s that are");
+    for (size_t i = 0; i < index->count && ok; i++) {
+        ok = add_path(folder, capacity, index->paths[i], err);
+        index->paths[i] = NULL;
     }
+    return ok;
+}
+
+/* One path of the caller: a folder, a DICOMDIR or another file. */
+static bool take_path(const char *path, ang_dicom_folder *folder, size_t *capacity, ang_notes *warnings,
+                      const ang_progress *progress, ang_error *err) {
+    struct stat status;
+    if (stat(path, &status) != 0) return ang_fail(err, ANG_INPUT, "%s: %s", path, strerror(errno));
+    if (S_ISDIR(status.st_mode)) {
+        size_t before = folder->count;
+        bool ok = list_files(path, folder, capacity, 0, progress, err);
+        for (size_t i = before, listed = folder->count; i < listed && ok; i++) {
+            if (strcasecmp(ang_base_name(folder->paths[i]), "DICOMDIR") != 0) continue;
+            ang_dicom_directory index = ang_dicom_read_directory(folder->paths[i]);
+            ok = take_index(folder->paths[i], &index, folder, capacity, warnings, err);
+            ang_dicom_directory_clear(&index);
+        }
+        return ok;
+    }
+    if (!S_ISREG(status.st_mode) || !ang_dicom_is_directory(path)) return add_path(folder, capacity, strdup(path), err);
+    ang_dicom_directory index = ang_dicom_read_directory(path);
+    bool ok = take_index(path, &index, folder, capacity, warnings, err);
+    if (ok && (index.damaged || index.missing > 0)) {
+        char *around = ang_dicom_folder_of(path);
+        ok = around ? list_files(around, folder, capacity, 0, progress, err)
+                    : ang_fail(err, ANG_LIMIT, "no memory for a path");
+        free(around);
+    } else {
+        folder->indexed += index.count;
+    }
+    ang_dicom_directory_clear(&index);
+    return ok;
+}
+
+/* The files at and below the paths, sorted, each once. */
+static bool find_files(const char *const *paths, size_t count, ang_dicom_folder *folder, ang_notes *warnings,
+                       const ang_progress *progress, ang_error *err) {
+    size_t capacity = 0, kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (!take_path(paths[i], folder, &capacity, warnings, progress, err)) return false;
     if (folder->count == 0) return ang_fail(err, ANG_INPUT, "%s: the folder is empty", paths[0]);
     qsort(folder->paths, folder->count, sizeof *folder->paths, compare_paths);
     for (size_t i = 0; i < folder->count; i++) {
@@ -169,7 +214,7 @@ static bool find_files(const char *const *paths, size_t count, ang_dicom_folder 
 bool ang_dicom_read_folder(const char *const *paths, size_t count, int threads, ang_dicom_folder *folder,
                            ang_notes *warnings, const ang_progress *progress, ang_error *err) {
     *folder = (ang_dicom_folder){0};
-    if (!find_files(paths, count, folder, progress, err)) {
+    if (!find_files(paths, count, folder, warnings, progress, err)) {
         ang_dicom_folder_clear(folder);
         return false;
     }

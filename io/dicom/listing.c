@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* What a first look at a slice's pixels found: in a series of many volumes each slice is compared with many. */
 typedef struct digest {
@@ -144,9 +143,6 @@ static bool fail_empty(const ang_dicom_folder *folder, const char *path, ang_err
     if (folder->broken > 1)
         return ang_fail(err, ANG_INPUT, "none of %zu DICOM files can be read; the first: %s", folder->broken,
                         folder->first_error);
-    if (folder->count == 1 && strncasecmp(folder->labels[0], "DICOMDIR", 8) == 0)
-        return ang_fail(err, ANG_INPUT, "%s: holds no DICOM image; a DICOMDIR is an index: give its folder",
-                        folder->labels[0]);
     if (folder->count == 1) return ang_fail(err, ANG_INPUT, "%s: holds no DICOM image", path);
     return ang_fail(err, ANG_INPUT, "%s: no DICOM image among its %zu files", path, folder->count);
 }
@@ -158,6 +154,9 @@ bool ang_dicom_list(const char *const *paths, size_t count, const ang_load_optio
     ang_dicom_folder *folder = &listing->folder;
     if (!ang_dicom_read_folder(paths, count, options->threads, folder, &report->warnings, progress, err)) return false;
     bool ok = folder->slice_count > 0 || fail_empty(folder, paths[0], err);
+    if (ok && folder->indexed > 0)
+        ang_notes_add(&report->assumptions, "the DICOMDIR names %zu file%s: others beside it are passed over",
+                      folder->indexed, ang_plural((long long)folder->indexed));
     if (ok && folder->foreign > 0)
         ang_notes_add(&report->assumptions, "passed over what is no DICOM image: %zu of %zu files", folder->foreign,
                       folder->count);
