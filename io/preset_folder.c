@@ -1,6 +1,7 @@
 #include "core/base/memory.h"
 #include "io/json.h"
 #include "io/preset.h"
+#include "io/slicer/property.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -114,6 +115,13 @@ bool ang_preset_is_path(const char *name_or_path) {
 }
 
 ang_preset *ang_preset_find(const char *name_or_path, const char *const *folders, ang_error *err) {
+    if (ang_property_form_of(name_or_path) != ANG_PROPERTY_NONE && access(name_or_path, F_OK) == 0) {
+        ang_fail(
+            err, ANG_USAGE,
+            "%s: is a volume property of 3D Slicer by its name; 'angioscope presets import FILE' makes presets of it",
+            name_or_path);
+        return NULL;
+    }
     if (ang_preset_is_path(name_or_path)) return ang_preset_load(name_or_path, err);
     char *wanted = strndup(name_or_path, strlen(name_or_path) - (ends_in_json(name_or_path) ? 5 : 0));
     ang_preset_names names;
