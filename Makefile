@@ -1,10 +1,11 @@
-# Two commands do everything: `make demo` and `make test`. The build itself is CMake's: see CMakePresets.json.
+# Two commands do everything: `make demo` and `make test`; `make install` and `make package` pass it on (docs/install.md). The build itself is CMake's: see CMakePresets.json.
 PACKAGES := build-essential cmake ninja-build pkg-config python3 python3-glad zlib1g-dev libpng-dev libcjson-dev libcmocka-dev \
 	libgdcm-dev libnifti-dev libopenimageio-dev libopencv-dev libosmesa6-dev libegl-dev libegl1 libgl1-mesa-dri \
 	libglfw3-dev libx11-dev libimgui-dev xvfb xdotool fonts-dejavu-core gnuplot-nox dicom3tools dcm2niix clang-format
 DEMO := demo
+PREFIX := /usr/local
 
-.PHONY: all packages build demo test sanitize lint format clean
+.PHONY: all packages build demo test install package sanitize lint format clean
 
 all: build
 
@@ -21,6 +22,16 @@ demo: build
 
 test: build
 	@ctest --test-dir build --output-on-failure --no-tests=error
+
+install: build
+	@DESTDIR="$(DESTDIR)" cmake --install build --prefix "$(PREFIX)" --strip >build.log || { cat build.log; exit 1; }
+	@rm -f build.log
+	@echo "Installed below $(DESTDIR)$(PREFIX)"
+
+package: build
+	@cpack --config build/CPackConfig.cmake -B build >build.log 2>&1 || { cat build.log; exit 1; }
+	@rm -rf build.log build/_CPack_Packages
+	@ls build/*.deb
 
 sanitize: packages
 	@cmake --preset sanitize

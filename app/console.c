@@ -1,8 +1,10 @@
 /* What all verbs share: progress on stderr, messages, small parsers, the clock, where presets lie. */
 #include "app/verbs.h"
 #include "core/base/clock.h"
+#include "io/place.h"
 #include "io/preset_own.h"
 
+#include <limits.h>
 #include <math.h>
 #include <pthread.h>
 #include <signal.h>
@@ -144,16 +146,26 @@ bool ang_app_parse_numbers(const char *option, const char *text, int least, int 
     return ang_fail(err, ANG_USAGE, "--%s %s: must be %d to %d numbers separated by commas", option, text, least, most);
 }
 
-const char *const *ang_app_preset_folders(void) {
-    /* The user's own hide installed ones of the same name. The source folder serves a program that was built but not
-     * installed. */
-    static const char *folders[4];
+/* The user's own hide those that come with the program, which lie below the prefix of the installation or, for a
+ * program that was built but not installed, beside it. */
+static const char *preset_folders[3];
+
+static void find_preset_folders(void) {
+    static const char *const places[] = {"../share/angioscope/presets", "presets"};
+    static char path[PATH_MAX];
     int count = 0;
-    if (ang_preset_own_folder()) folders[count++] = ang_preset_own_folder();
-    folders[count++] = ANG_PRESET_INSTALLED;
-    folders[count++] = ANG_PRESET_SOURCE;
-    folders[count] = NULL;
-    return folders;
+    if (ang_preset_own_folder()) preset_folders[count++] = ang_preset_own_folder();
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        if (!ang_place_beside_program(places[i], path, sizeof path)) continue;
+        preset_folders[count] = path;
+        break;
+    }
+}
+
+const char *const *ang_app_preset_folders(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, find_preset_folders);
+    return preset_folders;
 }
 
 ang_load_options ang_app_load_options(const ang_options *options) {

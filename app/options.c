@@ -1,25 +1,10 @@
-#include "app/options.h"
+#include "app/option_table.h"
 
 #include <getopt.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef enum value_type { FLAG, TEXT, CHOICE, INTEGER, REAL } value_type;
-
-typedef struct option_spec {
-    const char *name;
-    char letter; /* one-letter form, 0: none */
-    value_type type;
-    unsigned verbs;
-    size_t offset;        /* into ang_options */
-    const char *argument; /* shown in help; for CHOICE the words, separated by | */
-    double min, max;      /* INTEGER, REAL; the ends belong to the range */
-    const char *initial;  /* as it would be typed; NULL: not given */
-    const char *unit;
-    const char *help;
-} option_spec;
 
 #define FIELD(field) offsetof(ang_options, field)
 #define DRAWS        (ANG_VERB_RENDER | ANG_VERB_REPORT)
@@ -36,7 +21,7 @@ typedef struct option_spec {
 #define FLAG_OPTION(name, letter, verbs, field, help)                                                                  \
     { name, letter, FLAG, verbs, FIELD(field), NULL, 0, 0, NULL, NULL, help }
 
-static const option_spec table[] = {
+static const ang_option table[] = {
     {"output", 'o', TEXT, ANG_VERB_RENDER, FIELD(output), "OUT", 0, 0, NULL, NULL,
      "picture to write: .png or .tif (8 bit), .exr (float), .ppm (8 bit) or .pfm (float); numbered with --frames"},
     {"output", 'o', TEXT, ANG_VERB_REPORT, FIELD(output), "DIR", 0, 0, NULL, NULL,
@@ -192,6 +177,8 @@ static const option_spec table[] = {
 enum { table_length = sizeof table / sizeof *table };
 _Static_assert((int)table_length <= (int)ANG_MOST_OPTIONS, "ang_options.given is too short");
 
+const ang_option *ang_option_at(int index) { return index < table_length ? &table[index] : NULL; }
+
 static bool is_choice(const char *words, const char *word) {
     size_t length = strlen(word);
     for (const char *at = words; at; at = strchr(at, '|'), at = at ? at + 1 : NULL)
@@ -199,7 +186,7 @@ static bool is_choice(const char *words, const char *word) {
     return false;
 }
 
-static bool store(const option_spec *spec, const char *text, ang_options *options, ang_error *err) {
+static bool store(const ang_option *spec, const char *text, ang_options *options, ang_error *err) {
     void *field = (char *)options + spec->offset;
     char *end = NULL;
     switch (spec->type) {
@@ -288,7 +275,7 @@ bool ang_options_offer(ang_verb verb, ang_options *options, const char *name, co
     return ang_fail(err, ANG_USAGE, "there is no option --%s", name);
 }
 
-static void value_text(const option_spec *spec, const ang_options *options, char *text, size_t size) {
+static void value_text(const ang_option *spec, const ang_options *options, char *text, size_t size) {
     const void *field = (const char *)options + spec->offset;
     switch (spec->type) {
     case FLAG:
@@ -340,7 +327,7 @@ static void print_wrapped(FILE *out, const char *text, int indent) {
 void ang_options_help(ang_verb verb, FILE *out) {
     enum { indent = 34 };
     for (int i = 0; i < table_length; i++) {
-        const option_spec *spec = &table[i];
+        const ang_option *spec = &table[i];
         if (!(spec->verbs & verb)) continue;
         char left[128], text[512];
         snprintf(left, sizeof left, "  %c%c%s--%s %s", spec->letter ? '-' : ' ', spec->letter ? spec->letter : ' ',

@@ -1,23 +1,18 @@
 #include "io/module.h"
 
+#include "io/place.h"
+
 #include <dlfcn.h>
 #include <limits.h>
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
 
 /* By path, not by the program's run path, which AddressSanitizer's dlopen does not follow. */
 static void *open_module(const char *file) {
     static const char *const places[] = {"", "../", "../lib/angioscope/"};
-    char program[PATH_MAX], path[PATH_MAX + 64];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length < 0) length = 0;
-    program[length] = '\0';
-    char *slash = strrchr(program, '/');
-    if (slash) slash[1] = '\0';
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        snprintf(path, sizeof path, "%s%s%s", program, places[i], file);
-        if (access(path, R_OK) == 0) return dlopen(path, RTLD_NOW | RTLD_LOCAL);
+        char relative[NAME_MAX + 32], path[PATH_MAX];
+        snprintf(relative, sizeof relative, "%s%s", places[i], file);
+        if (ang_place_beside_program(relative, path, sizeof path)) return dlopen(path, RTLD_NOW | RTLD_LOCAL);
     }
     /* For the message: the plain name, which is not found. */
     return dlopen(file, RTLD_NOW | RTLD_LOCAL);
