@@ -18,7 +18,10 @@ const ang_verb_entry ang_verb_table[] = {
      NULL, true},
     {"presets", ANG_VERB_PRESETS, "presets list|show|import|export|sheet ...",
      "the presets there are; from and for 3D Slicer; a sheet of their pictures",
-     "Lists the presets, the user's own before those of the installation, or prints one as JSON.", "list|show", true},
+     "Lists the presets, the user's own before those of the installation, prints one as JSON, takes over and writes "
+     "those of "
+     "3D Slicer, or draws a volume with each of them on one sheet.",
+     "list|show|import|export|sheet", true},
     {"phantom", ANG_VERB_PHANTOM, "phantom -o DIR [options]", "a synthetic head CTA as a DICOM series",
      "Writes a synthetic CT angiogram of a head as a DICOM series, with what is in it, exactly, in truth.json.", NULL,
      false},
