@@ -364,6 +364,7 @@ static void add_live(cJSON *live, const ang_viewer_state *shown) {
     cJSON_AddBoolToObject(live, "refined", shown->refined);
     cJSON_AddNumberToObject(live, "levels_shown", shown->levels_shown);
     cJSON_AddBoolToObject(live, "at_rest", shown->at_rest);
+    cJSON_AddNumberToObject(live, "presets_pictured", shown->presets_pictured);
     if (shown->judged) ang_json_add_number(live, "error_levels", shown->error);
     ang_json_add_number(live, "latency_ms", shown->latency_ms);
     cJSON_AddNumberToObject(live, "frames", shown->frames);

@@ -33,9 +33,18 @@ void ang_viewer_say(ang_viewer *viewer, bool bad, const char *format, ...) {
     viewer->message_until = ang_now_ms() / 1000 + message_seconds;
 }
 
+/* Of the 3D pane; where another is large, as if none were. */
+static ang_rect volume_place(const ang_viewer *viewer) {
+    ang_layout_frame frame = viewer->grips.frame;
+    if (frame.maximised != ANG_PANE_VOLUME) frame.maximised = -1;
+    return ang_layout_place(&viewer->grips.layout, &frame).pane[ANG_PANE_VOLUME];
+}
+
 static void panes(ang_viewer *viewer) {
     viewer->hovered = ANG_PANES;
     viewer->hovered_hu = NAN;
+    ang_rect volume = volume_place(viewer);
+    if (viewer->pane[ANG_PANE_VOLUME].width < 1) ang_volume_await(viewer, (int)volume.width, (int)volume.height);
     for (int i = 0; i < ANG_PANES; i++) {
         if (viewer->pane[i].width < 1) continue;
         if (i == ANG_PANE_VOLUME)
@@ -83,9 +92,9 @@ static void describe_browsers(const ang_viewer *viewer, ang_viewer_state *state)
     state->slices_previewed = viewer->preview.pictures;
 }
 
-/* Seconds until there is something to do for the 3D pane while the hands rest; infinite: nothing. */
+/* Seconds until there is something to do for the 3D picture while the hands rest; infinite: nothing. */
 static double rest_work_in(const ang_viewer *viewer) {
-    if (!viewer->ready || viewer->pane[ANG_PANE_VOLUME].width < 1) return INFINITY;
+    if (!viewer->ready) return INFINITY;
     if (ang_thumbnails_wanted(viewer)) return 0;
     return fmin(ang_volume_refine_in(viewer), ang_picture_error_in(viewer));
 }
@@ -121,6 +130,7 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .refined = volume->refined,
                                 .levels_shown = volume->refining.levels_shown,
                                 .at_rest = viewer->ready && isinf(rest_work_in(viewer)),
+                                .presets_pictured = ang_thumbnails_made(viewer),
                                 .judged = volume->refined && volume->error.version == volume->version,
                                 .error = volume->error.levels,
                                 .latency_ms = viewer->latency_ms,
@@ -193,7 +203,7 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
 static void rest_work(ang_viewer *viewer) {
     viewer->redraws = settling_frames;
     if (ang_window_pending(viewer->window) || rest_work_in(viewer) > 0) return;
-    ang_rect rect = viewer->pane[ANG_PANE_VOLUME];
+    ang_rect rect = volume_place(viewer);
     if (ang_volume_refine_in(viewer) <= 0) {
         ang_volume_update(viewer, (int)rect.width, (int)rect.height, true);
         if (ang_volume_refine_in(viewer) <= 0) viewer->redraws = 0; /* the next level settles it */

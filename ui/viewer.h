@@ -71,15 +71,16 @@ typedef struct ang_viewer_state {
     const char *method; /* that draws; NULL: none yet */
     int size[2];        /* of the 3D picture, pixels */
     bool refined;
-    int levels_shown;  /* of fine 3D pictures, before they were refined (core/render/progressive.h), so far */
-    bool at_rest;      /* nothing is left to do until input comes */
-    bool judged;       /* its error is known, or that it cannot be: */
-    double error;      /* levels; NAN: cannot be known */
-    double latency_ms; /* from the last event to the window that showed what came of it */
-    double frame_ms;   /* the last 3D picture's */
-    int undo, redo;    /* 1 where possible */
-    const char *saved; /* the last file written; NULL: none */
-    const char *open;  /* "files", "series", "report": what is in front; "": nothing */
+    int levels_shown;     /* of fine 3D pictures, before they were refined (core/render/progressive.h), so far */
+    bool at_rest;         /* nothing is left to do until input comes */
+    int presets_pictured; /* presets of which there is a small picture */
+    bool judged;          /* its error is known, or that it cannot be: */
+    double error;         /* levels; NAN: cannot be known */
+    double latency_ms;    /* from the last event to the window that showed what came of it */
+    double frame_ms;      /* the last 3D picture's */
+    int undo, redo;       /* 1 where possible */
+    const char *saved;    /* the last file written; NULL: none */
+    const char *open;     /* "files", "series", "report": what is in front; "": nothing */
     struct {
         int listed, chosen; /* rows of the file browser; the one that is marked, from 0, -1: none */
     } files;

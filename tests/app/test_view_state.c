@@ -129,6 +129,17 @@ static void a_large_pane_is_restored(void **state) {
     assert_int_equal(wait_for_end(), 0);
     start_viewer(DATA " --state " PICTURES "/angioscope-state-0002.json");
     expect_text("maximised", "sagittal");
+    /* What tells of the volume's picture does so though its pane has not been seen: it is drawn at rest. */
+    for (int i = 0; i < 200 && !(isfinite(number_now("error_levels")) && number_now("presets_pictured") >= 3); i++)
+        nap(50);
+    assert_true(isfinite(number_now("error_levels")));
+    assert_true(number_now("presets_pictured") >= 3);
+    expect_flag("refined", true);
+    double drawn = number_now("levels_shown");
+    hands("key Return");
+    expect_text("maximised", "");
+    expect_flag("at_rest", true);
+    assert_true(number_now("levels_shown") <= drawn); /* the picture was of the pane's size: it is not drawn again */
     hands("key ctrl+q");
     assert_int_equal(wait_for_end(), 0);
 }

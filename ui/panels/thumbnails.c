@@ -27,6 +27,12 @@ bool ang_thumbnails_wanted(const ang_viewer *viewer) {
     return volume->renderer && volume->refined && !volume->failure[0] && next_wanted(viewer) >= 0;
 }
 
+int ang_thumbnails_made(const ang_viewer *viewer) {
+    int count = 0;
+    for (int i = 0; i < ANG_PRESETS; i++) count += viewer->thumbnails.texture[i].name != 0;
+    return count;
+}
+
 void ang_thumbnails_step(ang_viewer *viewer) {
     ang_thumbnails *thumbnails = &viewer->thumbnails;
     const ang_preset *presets[ANG_PRESETS];

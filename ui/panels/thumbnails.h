@@ -21,6 +21,8 @@ void ang_thumbnails_strip(ang_viewer *viewer);
 void ang_thumbnails_show(ang_viewer *viewer);
 /* Whether one that is seen has no picture yet. */
 bool ang_thumbnails_wanted(const ang_viewer *viewer);
+/* How many there are. */
+int ang_thumbnails_made(const ang_viewer *viewer);
 /* Makes the next one. */
 void ang_thumbnails_step(ang_viewer *viewer);
 /* The presets are others: all pictures are made again. */

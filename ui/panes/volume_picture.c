@@ -150,12 +150,16 @@ static int first_level(const ang_volume_picture *volume, int width) {
     return level;
 }
 
+/* Whether a part of the fine picture of this document is there. */
+static bool has_begun(const ang_refining *fine, const ang_document *document, int width, int height) {
+    return fine->begun && fine->size[0] == width && fine->size[1] == height &&
+           ang_document_same_rendering(&fine->document, document);
+}
+
 static bool begin_refining(ang_volume_picture *volume, const ang_document *document, const ang_scene *scene,
                            ang_error *err) {
     ang_refining *fine = &volume->refining;
-    if (fine->begun && fine->size[0] == scene->width && fine->size[1] == scene->height &&
-        ang_document_same_rendering(&fine->document, document))
-        return true;
+    if (has_begun(fine, document, scene->width, scene->height)) return true;
     fine->begun = ang_progressive_start(&fine->picture, volume->method, scene, first_level(volume, scene->width), err);
     fine->document = *document;
     fine->size[0] = scene->width;
@@ -203,14 +207,30 @@ static bool mark_lengths(const ang_viewer *viewer, ang_objects *objects, ang_err
 
 static int scaled(int size, double scale) { return (int)fmax(round(size * scale), 1); }
 
+/* Whether the picture is this document's, coarse or fine. */
+static bool is_current(const ang_volume_picture *volume, const ang_document *document, int width, int height) {
+    return volume->shown && volume->size[0] == width && volume->size[1] == height &&
+           ang_document_same_rendering(&volume->document, document);
+}
+
+void ang_volume_await(ang_viewer *viewer, int width, int height) {
+    ang_volume_picture *volume = &viewer->volume;
+    const ang_document *document = ang_viewer_shown_document(viewer);
+    ang_kept_picture_turn(viewer, document, width, height);
+    volume->awaited = width >= 1 && height >= 1 && !is_current(volume, document, width, height);
+    if (!volume->awaited) return;
+    volume->shown = volume->refined = false;
+    if (!has_begun(&volume->refining, document, width, height)) volume->asked_seconds = ang_now_ms() / 1000;
+}
+
 void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     ang_volume_picture *volume = &viewer->volume;
     const ang_document *document = ang_viewer_shown_document(viewer);
     if (width < 1 || height < 1) return;
     follow_method(viewer);
     ang_kept_picture_turn(viewer, document, width, height);
-    bool current = volume->shown && volume->size[0] == width && volume->size[1] == height &&
-                   ang_document_same_rendering(&volume->document, document);
+    bool current = is_current(volume, document, width, height);
+    if (current) volume->awaited = false;
     if (current && (!refine || volume->refined)) return;
     if (!current) volume->asked_seconds = ang_now_ms() / 1000;
     ang_error err = {0};
@@ -242,7 +262,7 @@ void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine) {
     volume->size[0] = width;
     volume->size[1] = height;
     volume->shown = true;
-    volume->refining.begun = false;
+    volume->awaited = volume->refining.begun = false;
     volume->version++;
     /* What failed is not tried again until something changes. */
     volume->refined = refine || !done;
@@ -283,7 +303,7 @@ int ang_volume_level(const ang_viewer *viewer) {
 
 double ang_volume_refine_in(const ang_viewer *viewer) {
     const ang_volume_picture *volume = &viewer->volume;
-    if (!volume->shown || volume->refined) return INFINITY;
+    if (volume->refined || !(volume->shown || volume->awaited)) return INFINITY;
     double rest = volume->method && volume->method->splits ? rest_seconds_splitting : rest_seconds;
     return fmax(volume->asked_seconds + rest - ang_now_ms() / 1000, 0);
 }

@@ -30,6 +30,7 @@ typedef struct ang_volume_picture {
     ang_document document;  /* that `image` shows */
     int size[2];            /* of the pane that `image` was made for */
     bool shown, refined;    /* there is an image; it is as fine as the pane */
+    bool awaited;           /* there is none, and the pane is hidden: it comes at rest */
     ang_refining refining;
     unsigned version; /* counts the images */
     ang_picture_error error;
@@ -55,6 +56,9 @@ bool ang_volume_thumbnail(ang_viewer *viewer, const ang_document *document, int 
 /* Draws a coarse picture where what it should show has changed; or, with `refine`, the next level of the fine one,
  * until input comes. */
 void ang_volume_update(ang_viewer *viewer, int width, int height, bool refine);
+/* The same for a pane that is hidden, whose size is the one that it has beside the others: nothing is drawn until the
+ * hands rest, then the fine picture, of which status line and thumbnails tell. */
+void ang_volume_await(ang_viewer *viewer, int width, int height);
 /* The levels (core/render/progressive.h) of the fine picture that are shown; 0: a coarse one is. */
 int ang_volume_level(const ang_viewer *viewer);
 /* Seconds until the fine picture should be begun, or gone on with; infinite where there is nothing to refine. */
