@@ -74,6 +74,9 @@ bool ang_gui_menu_item(ang_gui *gui, const char *label, const char *shortcut, bo
 /* Widgets. Labels end at "##"; what follows only tells widgets of one label apart. `width` 0: what is left. */
 void ang_gui_text(ang_gui *gui, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ang_gui_text_dim(ang_gui *gui, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Texts in between are in the smaller of the two sizes of letters. */
+void ang_gui_small_begin(ang_gui *gui);
+void ang_gui_small_end(ang_gui *gui);
 void ang_gui_text_accent(ang_gui *gui, const char *text);
 /* With line breaks at the area's or the given width. */
 void ang_gui_paragraph(ang_gui *gui, const char *text, double width);
@@ -162,6 +165,11 @@ void ang_gui_canvas_arrows(ang_gui *gui);
  * letters. A level or upright line of an odd thickness is sharp through the middle of pixels (whole and a half), of an
  * even one between them. */
 void ang_gui_line(ang_gui *gui, double x0, double y0, double x1, double y1, ang_ink ink, double thickness);
+/* The same, interrupted where it would run through what has been written between begin and end below. */
+void ang_gui_guide(ang_gui *gui, double x0, double y0, double x1, double y1, ang_ink ink, double thickness);
+/* In a pane, once: what is drawn between these two lies over all that is drawn later in the pane. */
+void ang_gui_on_top_begin(ang_gui *gui);
+void ang_gui_on_top_end(ang_gui *gui);
 void ang_gui_frame(ang_gui *gui, ang_rect rect, ang_ink ink);
 void ang_gui_fill(ang_gui *gui, ang_rect rect, ang_ink ink);
 /* Between two colours, from left to right. */

@@ -109,6 +109,30 @@ static void keys_alone_edit(void **state) {
     expect_number("preset.points.3.hu", hu, 0);
 }
 
+/* Fields show no more digits than are of use; what they hold stays to the last one. */
+static void fields_keep_what_they_do_not_show(void **state) {
+    (void)state;
+    need_window();
+    plot plot = read_plot();
+    double hu = number_now("preset.points.4.hu"), opacity = number_now("preset.points.4.opacity");
+    hands("mousemove %d %d", x_of(&plot, hu), y_of(&plot, opacity));
+    drag(1, 0, 7);
+    expect_number("editor.point", 4, 0);
+    double dragged = number_now("preset.points.4.opacity");
+    assert_true(fabs(1000 * dragged - round(1000 * dragged)) > 1e-6); /* more than one decimal of a per cent */
+    int y = (int)(plot.top + plot.height) + 46;
+    /* Through both fields without a change, then one that has more decimals than are shown after a drag. */
+    hands("mousemove %d %d click 1 key --delay 60 Tab key --delay 60 Return", (int)plot.left + 40, y);
+    nap(200);
+    expect_number("preset.points.4.opacity", dragged, 0);
+    hands("mousemove %d %d click 1 key --delay 60 ctrl+a type --delay 60 287.65432", (int)plot.left + 40, y);
+    hands("key --delay 60 Return");
+    expect_number("preset.points.4.hu", 287.65432, 0);
+    hands("key --delay 60 Escape key --delay 60 Escape key --delay 60 ctrl+z key --delay 60 ctrl+z");
+    expect_number("preset.points.4.hu", hu, 0);
+    expect_number("preset.points.4.opacity", opacity, 0);
+}
+
 /* A drag on the strip of colours: the state's share against a count of the volume's voxels. */
 static void a_range_is_counted_and_marked(void **state) {
     (void)state;
@@ -243,9 +267,9 @@ static void the_error_is_estimated_at_rest(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(points_in_a_box_move_together), cmocka_unit_test(keys_alone_edit),
-        cmocka_unit_test(a_range_is_counted_and_marked), cmocka_unit_test(the_error_is_estimated_at_rest),
-        cmocka_unit_test(a_preset_is_saved_by_name),
+        cmocka_unit_test(points_in_a_box_move_together),     cmocka_unit_test(keys_alone_edit),
+        cmocka_unit_test(fields_keep_what_they_do_not_show), cmocka_unit_test(a_range_is_counted_and_marked),
+        cmocka_unit_test(the_error_is_estimated_at_rest),    cmocka_unit_test(a_preset_is_saved_by_name),
     };
     return cmocka_run_group_tests(tests, open_phantom, close_display);
 }

@@ -37,8 +37,11 @@ typedef struct help_line {
     const char *group, *left, *right;
     const ang_action *action; /* whose shortcut is on the left; NULL: `left` */
 } help_line;
-/* `SPARE`: lines that breaking into columns may add; `WIDTH`: pixels at scale 1 that a column takes about. */
-enum { HELP_LINES = 256, COLUMNS = 3, SPARE = 3 * COLUMNS, WIDTH = 328 };
+/* `SPARE`: lines that breaking into columns may add. */
+enum { HELP_LINES = 256, COLUMNS = 4, SPARE = 3 * COLUMNS };
+/* Pixels at scale 1: what a column takes about in the larger and the smaller letters, a line beside its letters, and
+ * all that is around the lines. */
+static const double wide = 328, wide_small = 292, between_lines = 4, around = 108;
 
 typedef struct help_list {
     help_line line[HELP_LINES];
@@ -93,21 +96,41 @@ static int break_columns(const help_list *list, int rows, int columns, help_line
     return at;
 }
 
+typedef struct help_table {
+    help_line grid[HELP_LINES + SPARE];
+    int columns, rows;
+} help_table;
+
+/* In as many columns as the window has room for; true where all of it shows. */
+static bool fill_table(const ang_viewer *viewer, const help_list *list, bool small, help_table *table) {
+    const ang_gui *gui = viewer->gui;
+    int columns = (int)(viewer->input.width / ang_gui_px(gui, small ? wide_small : wide));
+    int most = small ? COLUMNS : COLUMNS - 1;
+    columns = columns < 1 ? 1 : columns > most ? most : columns;
+    int rows = (list->count + columns - 1) / columns;
+    while (break_columns(list, rows, columns, table->grid) == 0) rows++;
+    table->columns = columns;
+    table->rows = rows;
+    double line = ang_gui_text_height(gui, small) + ang_gui_px(gui, between_lines);
+    return rows * line + ang_gui_px(gui, around) <= viewer->input.height;
+}
+
 void ang_help(ang_viewer *viewer) {
     if (!viewer->help) return;
     ang_gui *gui = viewer->gui;
     help_list list = {0};
-    help_line grid[HELP_LINES + SPARE];
-    int columns = (int)(viewer->input.width / ang_gui_px(gui, WIDTH));
-    columns = columns < 1 ? 1 : columns > COLUMNS ? COLUMNS : columns;
+    help_table table;
     list_help(&list);
-    int rows = (list.count + columns - 1) / columns;
-    while (break_columns(&list, rows, columns, grid) == 0) rows++;
+    bool small = !fill_table(viewer, &list, false, &table);
+    if (small) fill_table(viewer, &list, true, &table);
+    const int columns = table.columns, rows = table.rows;
     ang_gui_message_begin(gui, "help");
+    if (small) ang_gui_small_begin(gui);
     bool open = ang_gui_table_begin(gui, "keys", 2 * columns);
     for (int i = 0; i < rows && open; i++)
-        for (int j = 0; j < columns; j++) show_line(gui, &grid[j * rows + i]);
+        for (int j = 0; j < columns; j++) show_line(gui, &table.grid[j * rows + i]);
     if (open) ang_gui_table_end(gui);
+    if (small) ang_gui_small_end(gui);
     ang_gui_gap(gui, ang_gui_px(gui, 8));
     ang_gui_text_dim(gui, "Angioscope %s. Not a medical device; not for diagnosis. F1 or Esc closes this.",
                      viewer->host->version);

@@ -2,6 +2,7 @@
 
 #include "ui/panels/transfer_keys.h"
 #include "ui/panels/transfer_plot.h"
+#include "ui/state/number_text.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
@@ -243,6 +244,11 @@ static void mark(ang_viewer *viewer, int pointed) {
     editing->marked = editing->mark.first <= editing->mark.last;
 }
 
+/* For the number of a field; with a sign where the number is a change. */
+static void field_format(int decimals, bool change, const char *unit, char format[16]) {
+    snprintf(format, 16, "%%%s.%df%s", change ? "+" : "", decimals, unit);
+}
+
 /* The fields below the plot: of one point its values, of several what all of them change by. */
 static void numbers(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
@@ -258,18 +264,19 @@ static void numbers(ang_viewer *viewer) {
     double half = floor((ang_gui_room(gui) - swatch - remove - 3 * gap) / 2);
     double hu_before = several ? 0 : document->points[i].hu, hu = hu_before;
     double percent_before = several ? 0 : 100 * ang_document_opacity(document, i), percent = percent_before;
-    char name[32];
+    char name[32], format[16];
     const ang_document from = *document;
     /* A field belongs to what is chosen: another choice is another field. */
     snprintf(name, sizeof name, "##hu%d-%d", i, count);
-    const char *format = several ? hounsfield ? "%+.6g HU" : "%+.6g" : hounsfield ? "%.6g HU" : "%.6g";
+    field_format(ang_plot_hu_decimals(viewer, hu), several, hounsfield ? " HU" : "", format);
     if (ang_gui_number_field(gui, name, &hu, format, half))
         ang_points_move(document, &from, &editing->chosen, (ang_point_shift){.hu = hu - hu_before});
     ang_gui_tooltip(gui, several ? "By how much to move all chosen points; Enter moves them"
                                  : "Value of the point; Enter sets it");
     ang_gui_same_line(gui);
     snprintf(name, sizeof name, "##opacity%d-%d", i, count);
-    if (ang_gui_number_field(gui, name, &percent, several ? "%+.4g %%" : "%.4g %%", half))
+    field_format(ang_percent_decimals(percent), several, " %%", format);
+    if (ang_gui_number_field(gui, name, &percent, format, half))
         ang_points_move(document, &from, &editing->chosen,
                         (ang_point_shift){.opacity = (percent - percent_before) / 100});
     ang_gui_tooltip(gui, several ? "By how much to raise the opacity of all chosen points"

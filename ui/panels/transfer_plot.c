@@ -1,5 +1,6 @@
 #include "ui/panels/transfer_plot.h"
 
+#include "ui/state/number_text.h"
 #include "ui/viewer_private.h"
 
 #include <math.h>
@@ -193,15 +194,22 @@ static void draw_axis(const ang_plot *plot) {
     ang_gui_write(gui, right, y, 1, true, false, viewer->theme->dim, unit);
 }
 
+int ang_plot_hu_decimals(const ang_viewer *viewer, double hu) {
+    return ang_number_decimals(hu, (viewer->editor_high - viewer->editor_low) / fmax(viewer->editor.width, 1));
+}
+
 static void write_pointed(const ang_plot *plot, int pointed) {
     const ang_viewer *viewer = plot->viewer;
     ang_gui *gui = viewer->gui;
     if (pointed < 0) return;
     char text[80];
-    snprintf(text, sizeof text, "%.6g%s, opacity %.3g %%", viewer->document.points[pointed].hu,
-             viewer->study.hounsfield ? " HU" : "", 100 * ang_document_opacity(&viewer->document, pointed));
-    ang_gui_write(gui, plot->whole.x + ang_gui_px(gui, 6), plot->whole.y + ang_gui_px(gui, 3), 0, true, true,
-                  ANG_INK_TEXT, text);
+    double hu = viewer->document.points[pointed].hu, percent = 100 * ang_document_opacity(&viewer->document, pointed);
+    snprintf(text, sizeof text, "%.*f%s, opacity %.*f %%", ang_plot_hu_decimals(viewer, hu), hu,
+             viewer->study.hounsfield ? " HU" : "", ang_percent_decimals(percent), percent);
+    double x = plot->whole.x + ang_gui_px(gui, 6), y = plot->whole.y + ang_gui_px(gui, 3), room = ang_gui_px(gui, 3);
+    ang_rect ground = {x - room, y, ang_gui_text_width(gui, text, true) + 2 * room, ang_gui_text_height(gui, true)};
+    ang_gui_fill(gui, ground, ANG_INK_FADED(viewer->theme->plot, 200));
+    ang_gui_write(gui, x, y, 0, true, false, viewer->theme->text, text);
 }
 
 void ang_plot_draw(const ang_plot *plot, int pointed) {

@@ -19,6 +19,9 @@ double ang_plot_height(const ang_plot *plot, double y);
 /* The point of the document that a hand at (x, y) means; -1: none. */
 int ang_plot_point_at(const ang_plot *plot, double x, double y);
 
+/* With how many decimals a value is shown: as fine as the plot can tell it (number_text.h). */
+int ang_plot_hu_decimals(const ang_viewer *viewer, double hu);
+
 /* Draws all of it; `pointed`: the point under the pointer, -1: none. */
 void ang_plot_draw(const ang_plot *plot, int pointed);
 

@@ -107,8 +107,8 @@ void ang_crosshair_turn(ang_viewer *viewer, ang_pane pane, const ang_slice_frame
 static void stretch(ang_viewer *viewer, ang_rect rect, const cut *cut, double from, double to, ang_ink ink) {
     if (!(from < to)) return;
     double x = rect.x + cut->x, y = rect.y + cut->y;
-    ang_gui_line(viewer->gui, x + from * cut->direction[0], y + from * cut->direction[1], x + to * cut->direction[0],
-                 y + to * cut->direction[1], ink, thickness(viewer));
+    ang_gui_guide(viewer->gui, x + from * cut->direction[0], y + from * cut->direction[1], x + to * cut->direction[0],
+                  y + to * cut->direction[1], ink, thickness(viewer));
 }
 
 /* Free of what lies under the crosshair. */

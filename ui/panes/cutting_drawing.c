@@ -16,8 +16,8 @@ static void draw_line(ang_viewer *viewer, const ang_cutting_pane *pane, ang_vec3
     double e[4], thick = fmax(ang_gui_px(viewer->gui, alpha > hidden ? 1.5 : 1), 1);
     if (!ang_pane_map_line(&pane->map, from, to, e)) return;
     double x = pane->rect.x, y = pane->rect.y;
-    ang_gui_line(viewer->gui, x + e[0], y + e[1], x + e[2], y + e[3], ANG_INK(0, 0, 0, alpha / 2), thick + 2);
-    ang_gui_line(viewer->gui, x + e[0], y + e[1], x + e[2], y + e[3], with_alpha(ink, alpha), thick);
+    ang_gui_guide(viewer->gui, x + e[0], y + e[1], x + e[2], y + e[3], ANG_INK(0, 0, 0, alpha / 2), thick + 2);
+    ang_gui_guide(viewer->gui, x + e[0], y + e[1], x + e[2], y + e[3], with_alpha(ink, alpha), thick);
 }
 
 /* A square to take hold of: hollow where it lies behind, large under the pointer. */
@@ -112,12 +112,12 @@ static void draw_cut(ang_viewer *viewer, const ang_cutting_pane *pane, bool hot)
     if (!ang_clip_line(&viewer->document.clip, pane->frame, e)) return;
     double x = pane->rect.x, y = pane->rect.y, length = hypot(e[2] - e[0], e[3] - e[1]);
     double way[2] = {(e[2] - e[0]) / length, (e[3] - e[1]) / length}, gap = ang_gui_px(gui, 24);
-    ang_gui_line(gui, x + e[0], y + e[1], x + e[2], y + e[3], ANG_INK(0, 0, 0, 110), thick + 2);
-    ang_gui_line(gui, x + e[0], y + e[1], x + e[2], y + e[3], with_alpha(ANG_INK_CLIP, plain), thick);
+    ang_gui_guide(gui, x + e[0], y + e[1], x + e[2], y + e[3], ANG_INK(0, 0, 0, 110), thick + 2);
+    ang_gui_guide(gui, x + e[0], y + e[1], x + e[2], y + e[3], with_alpha(ANG_INK_CLIP, plain), thick);
     for (double at = gap / 2; at < length; at += gap) {
         double from_x = x + e[0] + at * way[0], from_y = y + e[1] + at * way[1], stroke = ang_gui_px(gui, 5);
-        ang_gui_line(gui, from_x, from_y, from_x + stroke * way[1], from_y - stroke * way[0],
-                     with_alpha(ANG_INK_CLIP, plain), thick);
+        ang_gui_guide(gui, from_x, from_y, from_x + stroke * way[1], from_y - stroke * way[0],
+                      with_alpha(ANG_INK_CLIP, plain), thick);
     }
 }
 

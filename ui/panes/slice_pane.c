@@ -250,15 +250,17 @@ void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
         ang_viewer_say(viewer, true, "%s", err.message);
     ang_slice_mark_show(viewer, picture, rect);
     hover(viewer, pane, &canvas, &frame);
-    ang_cutting_pane cutting = {rect, ang_pane_map_of_slice(&frame), &frame};
-    ang_cutting_draw(viewer, &cutting, &canvas);
-    if (viewer->crosshair_shown) ang_crosshair_draw(viewer, pane, rect, &frame, &canvas);
-    ang_measures_draw_slice(viewer, pane, rect, &canvas, &frame);
+    ang_gui_on_top_begin(viewer->gui);
     ang_pane_letters(viewer, rect, frame.axes.right, frame.axes.down);
     if (viewer->corner_text) {
         write_corners(viewer, pane, rect);
         ang_pane_bar(viewer, rect, frame.mm_per_pixel, false);
     }
     ang_pane_frame(viewer, rect, pane);
+    ang_gui_on_top_end(viewer->gui);
+    ang_cutting_pane cutting = {rect, ang_pane_map_of_slice(&frame), &frame};
+    ang_cutting_draw(viewer, &cutting, &canvas);
+    if (viewer->crosshair_shown) ang_crosshair_draw(viewer, pane, rect, &frame, &canvas);
+    ang_measures_draw_slice(viewer, pane, rect, &canvas, &frame);
     ang_gui_pane_end(viewer->gui);
 }

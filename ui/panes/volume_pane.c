@@ -152,10 +152,8 @@ void ang_volume_pane(ang_viewer *viewer, ang_rect rect) {
                       true, false, ANG_INK_TEXT, viewer->volume.failure);
     else
         ang_gui_picture(viewer->gui, &viewer->volume.texture, rect);
-    ang_cutting_pane cutting = cutting_pane(viewer, rect);
-    ang_cutting_draw(viewer, &cutting, &canvas);
     ang_scene scene = ang_volume_scene(viewer, &viewer->document, NULL, (int)rect.width, (int)rect.height);
-    ang_measures_draw_volume(viewer, rect, scene);
+    ang_gui_on_top_begin(viewer->gui);
     ang_pane_letters(viewer, rect, scene.camera.right, ang_vec3_scale(scene.camera.up, -1));
     if (viewer->corner_text) {
         write_corners(viewer, rect);
@@ -164,5 +162,9 @@ void ang_volume_pane(ang_viewer *viewer, ang_rect rect) {
                      scene.camera.projection == ANG_PERSPECTIVE);
     }
     ang_pane_frame(viewer, rect, ANG_PANE_VOLUME);
+    ang_gui_on_top_end(viewer->gui);
+    ang_cutting_pane cutting = cutting_pane(viewer, rect);
+    ang_cutting_draw(viewer, &cutting, &canvas);
+    ang_measures_draw_volume(viewer, rect, scene);
     ang_gui_pane_end(viewer->gui);
 }

@@ -1,6 +1,9 @@
 /* Canvases, that the program draws itself, and drawing. */
 #include "ui/toolkit/gui_private.hpp"
 
+static ImVec2 at(double x, double y) { return ImVec2((float)x, (float)y); }
+static ImDrawList *sheet() { return ImGui::GetWindowDrawList(); }
+
 /* The state of a canvas whose invisible button was the last item. */
 static void read_canvas(ang_gui *gui, ang_rect rect, ang_canvas *canvas) {
     const ang_input &input = gui->input;
@@ -62,7 +65,21 @@ void ang_gui_pane_begin(ang_gui *gui, const char *name, ang_rect rect, ang_canva
 void ang_gui_grip_begin(ang_gui *gui, const char *name, ang_rect rect, ang_canvas *canvas) {
     begin_canvas(gui, name, rect, ImGuiWindowFlags_NoBackground, canvas);
 }
-void ang_gui_pane_end(ang_gui *) { ImGui::End(); }
+void ang_gui_pane_end(ang_gui *gui) {
+    if (gui->layered) sheet()->ChannelsMerge();
+    gui->layered = false;
+    gui->written.clear();
+    ImGui::End();
+}
+void ang_gui_on_top_begin(ang_gui *gui) {
+    sheet()->ChannelsSplit(2);
+    sheet()->ChannelsSetCurrent(1);
+    gui->on_top = gui->layered = true;
+}
+void ang_gui_on_top_end(ang_gui *gui) {
+    sheet()->ChannelsSetCurrent(0);
+    gui->on_top = false;
+}
 
 void ang_gui_canvas(ang_gui *gui, const char *name, double width, double height, ang_canvas *canvas) {
     ImVec2 at = ImGui::GetCursorScreenPos();
@@ -84,12 +101,16 @@ void ang_gui_row_canvas(ang_gui *gui, const char *name, double width, double hei
     canvas->wheel = 0;
 }
 
-static ImVec2 at(double x, double y) { return ImVec2((float)x, (float)y); }
-static ImDrawList *sheet() { return ImGui::GetWindowDrawList(); }
-
 void ang_gui_line(ang_gui *, double x0, double y0, double x1, double y1, ang_ink ink, double thickness) {
     /* It adds half a pixel itself. */
     sheet()->AddLine(at(x0 - 0.5, y0 - 0.5), at(x1 - 0.5, y1 - 0.5), ink, (float)thickness);
+}
+void ang_gui_guide(ang_gui *gui, double x0, double y0, double x1, double y1, ang_ink ink, double thickness) {
+    const double line[4] = {x0, y0, x1, y1};
+    double pieces[ANG_LINE_PIECES][4];
+    int count = ang_line_outside(line, gui->written.data(), gui->written.size(), pieces);
+    for (int i = 0; i < count; i++)
+        ang_gui_line(gui, pieces[i][0], pieces[i][1], pieces[i][2], pieces[i][3], ink, thickness);
 }
 void ang_gui_frame(ang_gui *, ang_rect r, ang_ink ink) {
     sheet()->AddRect(at(r.x, r.y), at(r.x + r.width, r.y + r.height), ink);
@@ -113,16 +134,31 @@ void ang_gui_picture(ang_gui *, const ang_paint_texture *texture, ang_rect r) {
 
 static ImFont *font_of(const ang_gui *gui, bool small) { return small ? gui->small : gui->normal; }
 
+/* Dark close to the letters; on top of a pane on a clear dark ground as well, to be read on bone too. */
+static void darken(const ang_gui *gui, ImFont *font, double x, double y, const ang_rect &ground, const char *text) {
+    if (gui->on_top)
+        sheet()->AddRectFilled(at(ground.x, ground.y), at(ground.x + ground.width, ground.y + ground.height),
+                               ANG_INK(0, 0, 0, 145), (float)ang_gui_px(gui, 3));
+    double reach = std::fmax(ang_gui_px(gui, 1), 1.0);
+    for (int across = -1; across <= 1; across++)
+        for (int down = -1; down <= 1; down++)
+            if (across != 0 || down != 0)
+                sheet()->AddText(font, font->FontSize, at(x + across * reach, y + down * reach),
+                                 ANG_INK(0, 0, 0, gui->on_top ? 110 : 170), text);
+}
+
 void ang_gui_write(ang_gui *gui, double x, double y, double align, bool small, bool outlined, ang_ink ink,
                    const char *text) {
     ImFont *font = font_of(gui, small);
-    x = std::round(x - align * ang_gui_text_width(gui, text, small));
+    double width = ang_gui_text_width(gui, text, small);
+    x = std::round(x - align * width);
     y = std::round(y);
-    const ang_ink dark = ANG_INK(0, 0, 0, 170);
-    static const int around[][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}};
-    for (const auto &step : around)
-        if (outlined) sheet()->AddText(font, font->FontSize, at(x + step[0], y + step[1]), dark, text);
+    if (!text[0]) return;
+    double room = ang_gui_px(gui, 3);
+    ang_rect ground = {x - room, y, width + 2 * room, (double)font->FontSize + ang_gui_px(gui, 1)};
+    if (outlined) darken(gui, font, x, y, ground, text);
     sheet()->AddText(font, font->FontSize, at(x, y), ink, text);
+    if (gui->on_top) gui->written.push_back(ground);
 }
 double ang_gui_text_width(const ang_gui *gui, const char *text, bool small) {
     ImFont *font = font_of(gui, small);

@@ -142,7 +142,7 @@ void ang_gui_take_keys(ang_gui *gui) {
     gui->navigating = ang_gui_popup_open(gui) || gui->bar || shown;
     if (!gui->dialog) gui->before = shown ? g.NavId : 0;
     gui->stops.clear();
-    gui->dialog_open = gui->dialog != nullptr;
+    gui->last_dialog = gui->dialog;
     gui->tab_kept = false;
     gui->dialog = nullptr;
     gui->arrows_of = 0;
@@ -166,7 +166,7 @@ void ang_gui_dialog_opened(ang_gui *gui) {
 
 bool ang_gui_navigating(const ang_gui *gui) { return gui->navigating; }
 
-bool ang_gui_dialog_open(const ang_gui *gui) { return gui->dialog_open; }
+bool ang_gui_dialog_open(const ang_gui *gui) { return gui->last_dialog != nullptr; }
 
 bool ang_gui_adjusting(const ang_gui *) {
     const ImGuiContext &g = *ImGui::GetCurrentContext();

@@ -40,7 +40,7 @@ struct ang_gui {
     /* Who has the keyboard (gui_focus.cpp). */
     std::vector<ang_gui_stop> stops;  /* in the order of the frame */
     ImGuiWindow *dialog;              /* in front; nullptr: none */
-    bool dialog_open;                 /* there was one in the frame before */
+    ImGuiWindow *last_dialog;         /* in the frame before */
     ImGuiID before;                   /* the widget that had the keyboard before the dialog; 0: none */
     ImGuiID arrows_of;                /* a canvas that uses arrows itself; 0: none */
     bool navigating;                  /* widgets have the keyboard */
@@ -62,6 +62,8 @@ struct ang_gui {
     size_t row_count;
     bool tab_kept;  /* Tab completes in the field of a path that was shown in the frame before */
     bool path_held; /* the field of a path had the keyboard in the frame before */
+    bool on_top, layered;          /* of the pane: what is drawn now lies over the rest; something does */
+    std::vector<ang_rect> written; /* what was written on top */
     std::vector<ang_paint_vertex> vertices;
     std::vector<uint16_t> indices;
     std::vector<ang_paint_command> commands;

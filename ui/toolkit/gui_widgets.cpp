@@ -79,6 +79,8 @@ void ang_gui_text_dim(ang_gui *, const char *format, ...) {
     ImGui::TextDisabledV(format, args);
     va_end(args);
 }
+void ang_gui_small_begin(ang_gui *gui) { ImGui::PushFont(gui->small); }
+void ang_gui_small_end(ang_gui *) { ImGui::PopFont(); }
 void ang_gui_text_accent(ang_gui *gui, const char *text) {
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(gui->theme->accent), "%s", text);
 }
@@ -228,7 +230,14 @@ static bool rested(ang_gui *gui) {
 
 double ang_gui_tooltip_in(const ang_gui *gui) { return gui->tooltip_in; }
 
+/* Whether a dialog lies before the widget. */
+static bool behind_dialog(const ang_gui *gui) {
+    const ImGuiWindow *front = gui->last_dialog, *window = ImGui::GetCurrentWindow();
+    return front && window->RootWindow != front && !(window->Flags & ImGuiWindowFlags_Popup);
+}
+
 void ang_gui_tooltip(ang_gui *gui, const char *text) {
+    if (behind_dialog(gui)) return;
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     const ImGuiContext &g = *ImGui::GetCurrentContext();
     bool by_keys = g.NavDisableMouseHover && !g.NavDisableHighlight;
