@@ -7,8 +7,6 @@
 /* The file's name without its folders: what messages call it. */
 const char *ang_base_name(const char *path);
 
-/* Whether the path is a folder, which may hold DICOM, or a DICOM file. */
-bool ang_is_dicom(const char *path);
 /* A report of which nothing is known yet. */
 void ang_load_report_start(ang_load_report *report);
 
@@ -18,6 +16,14 @@ bool ang_nifti_probe(const char *path);
  * LPS. */
 ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, ang_load_report *report,
                            const ang_progress *progress, ang_error *err);
+
+/* As ang_load, for NRRD (.nrrd, or .nhdr with files of voxels) and MetaImage (.mha, or .mhd with the same). */
+ang_volume *ang_nrrd_load(const char *path, const ang_load_options *options, ang_load_report *report,
+                          const ang_progress *progress, ang_error *err);
+ang_volume *ang_metaimage_load(const char *path, const ang_load_options *options, ang_load_report *report,
+                               const ang_progress *progress, ang_error *err);
+/* Whether the header `path`, of either, names `file` as one that holds its voxels. */
+bool ang_header_names(const char *path, bool nrrd, const char *file);
 
 /* Whether the options or a sidecar NAME.json describe the file as raw. */
 bool ang_raw_probe(const char *path, const ang_load_options *options);

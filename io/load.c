@@ -1,12 +1,14 @@
 #include "io/load.h"
 
 #include "core/transfer/transfer.h"
+#include "io/archive/archive.h"
 #include "io/dicom/dicom.h"
 #include "io/dicom/directory.h"
 #include "io/formats.h"
+#include "io/kind.h"
 #include "io/replace.h"
+#include "io/voxels/stack.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,72 +71,70 @@ static bool refuse_other_series(const char *label, const ang_load_options *optio
     return ang_fail(err, ANG_INPUT, "--series %s: %s holds one volume, series 1", options->series, label);
 }
 
-/* What a file of a known format that is not read begins with; NULL where it is none of these. */
-static const char *unread_format(const char *path) {
-    static const struct {
-        const char *start, *name;
-    } formats[] = {{"ObjectType", "MetaImage"}, {"NDims", "MetaImage"}, {"NRRD0", "NRRD"}};
-    char start[16] = "";
-    FILE *file = fopen(path, "rb");
-    if (!file) return NULL;
-    size_t length = fread(start, 1, sizeof start, file);
-    fclose(file);
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
-        size_t needed = strlen(formats[i].start);
-        if (length >= needed && memcmp(start, formats[i].start, needed) == 0) return formats[i].name;
-    }
-    return NULL;
-}
-
+/* What is left out of a build is no format of it. */
 #ifdef ANG_WITH_NIFTI
-#define READ_FORMATS "DICOM, NIfTI-1 and raw volumes"
+#define NIFTI "NIfTI-1, "
 #else
-#define READ_FORMATS "DICOM and raw volumes"
+#define NIFTI ""
+#endif
+#ifdef ANG_WITH_OIIO
+#define PICTURES ", a PNG or TIFF picture"
+#else
+#define PICTURES ""
 #endif
 
-static ang_volume *load_raw(const char *path, const ang_load_options *options, ang_load_report *report,
-                            const ang_progress *progress, ang_error *err) {
-    if (!refuse_other_series(ang_base_name(path), options, err)) return NULL;
-    return ang_raw_load(path, options, report, progress, err);
+static bool fail_unknown(const char *path, const char *label, ang_error *err) {
+    struct stat status;
+    if (stat(path, &status) == 0 && status.st_size == 0) return ang_fail(err, ANG_INPUT, "%s: is empty", label);
+    return ang_fail(err, ANG_INPUT,
+                    "%s: is neither DICOM, " NIFTI "NRRD, MetaImage" PICTURES
+                    " nor a zip archive; a raw volume needs --raw-dims and --raw-type or a sidecar %s.json",
+                    label, label);
+}
+
+typedef ang_volume *reader(const char *path, const ang_load_options *options, ang_load_report *report,
+                           const ang_progress *progress, ang_error *err);
+
+/* Formats of one volume each. */
+static const struct {
+    const char *name;
+    reader *read;
+} single[] = {[ANG_KIND_NIFTI] = {"NIfTI-1", ang_nifti_load},
+              [ANG_KIND_NRRD] = {"NRRD", ang_nrrd_load},
+              [ANG_KIND_METAIMAGE] = {"MetaImage", ang_metaimage_load},
+              [ANG_KIND_PICTURES] = {"a stack of pictures", ang_stack_load},
+              [ANG_KIND_RAW] = {"raw", ang_raw_load}};
+
+/* `path` is the input, of which `found` is read. */
+static ang_volume *read_found(const char *path, const ang_found *found, const ang_load_options *options,
+                              ang_load_report *report, const ang_progress *progress, ang_error *err) {
+    const char *label = ang_base_name(found->path);
+    bool folder = found->kind == ANG_KIND_DICOM && !ang_dicom_probe(found->path);
+    if (found->kind == ANG_KIND_NONE) {
+        fail_unknown(path, label, err);
+        return NULL;
+    }
+    if (found->kind == ANG_KIND_DICOM) {
+        if (!refuse_raw_options(label, folder ? "a folder" : "DICOM", options, err)) return NULL;
+        return ang_dicom_load(&path, 1, options, report, progress, err);
+    }
+    if (found->kind != ANG_KIND_RAW && !refuse_raw_options(label, single[found->kind].name, options, err)) return NULL;
+    if (!refuse_other_series(label, options, err)) return NULL;
+    ang_volume *volume = single[found->kind].read(found->path, options, report, progress, err);
+    if (volume && found->others > 0)
+        ang_notes_add_file(&report->assumptions, label, "is shown, the first of %zu volumes in the folder",
+                           found->others + 1);
+    return volume;
 }
 
 static ang_volume *dispatch(const char *path, const ang_load_options *options, ang_load_report *report,
                             const ang_progress *progress, ang_error *err) {
-    struct stat status;
-    const char *label = ang_base_name(path);
-    if (stat(path, &status) != 0) {
-        ang_fail(err, ANG_INPUT, "%s: %s", path, strerror(errno));
-        return NULL;
-    }
-    bool folder = S_ISDIR(status.st_mode);
-    if (!folder && !S_ISREG(status.st_mode)) {
-        ang_fail(err, ANG_INPUT, "%s: is neither a file nor a folder", path);
-        return NULL;
-    }
-    if (!folder && options->raw_dims) return load_raw(path, options, report, progress, err);
-    bool dicom = folder || ang_dicom_probe(path);
-    if (!dicom && status.st_size == 0) {
-        ang_fail(err, ANG_INPUT, "%s: is empty", label);
-        return NULL;
-    }
-    if (dicom) {
-        if (!refuse_raw_options(label, folder ? "a folder" : "DICOM", options, err)) return NULL;
-        return ang_dicom_load(&path, 1, options, report, progress, err);
-    }
-    if (ang_nifti_probe(path)) {
-        if (!refuse_raw_options(label, "NIfTI-1", options, err) || !refuse_other_series(label, options, err))
-            return NULL;
-        return ang_nifti_load(path, options, report, progress, err);
-    }
-    if (ang_raw_probe(path, options)) return load_raw(path, options, report, progress, err);
-    const char *unread = unread_format(path);
-    if (unread)
-        ang_fail(err, ANG_INPUT, "%s: is %s, which is not read yet; " READ_FORMATS " are", label, unread);
-    else
-        ang_fail(err, ANG_INPUT,
-                 "%s: is neither DICOM nor NIfTI-1; a raw volume needs --raw-dims and --raw-type or a sidecar %s.json",
-                 label, label);
-    return NULL;
+    ang_found found;
+    ang_volume *volume = NULL;
+    if (ang_kind_find(path, options, progress, &found, err))
+        volume = read_found(path, &found, options, report, progress, err);
+    ang_found_clear(&found);
+    return volume;
 }
 
 /* Numbers that are finite and yet none of a scan: everything after this may count on sensible ones. */
@@ -171,26 +171,31 @@ static bool lies_in(const char *folder, const char *path) {
 
 bool ang_load_reads(const char *input, const char *path) {
     struct stat status;
+    static const ang_load_options none = {0};
     if (stat(path, &status) != 0 || !S_ISREG(status.st_mode)) return false;
     if (ang_file_same(input, path)) return true;
     bool folder = stat(input, &status) == 0 && S_ISDIR(status.st_mode);
-    if (folder) return lies_in(input, path) && ang_dicom_probe(path);
     if (ang_dicom_is_directory(input)) {
         char *around = ang_dicom_folder_of(input);
         bool read = around && lies_in(around, path) && ang_dicom_probe(path);
         free(around);
         return read;
     }
-    char *sidecar = ang_raw_sidecar(input);
-    bool same = sidecar && ang_file_same(sidecar, path);
+    if (folder && !lies_in(input, path)) return false;
+    ang_found found;
+    bool reads = false;
+    if (!ang_kind_find(input, &none, NULL, &found, NULL)) return false;
+    bool header = found.kind == ANG_KIND_NRRD || found.kind == ANG_KIND_METAIMAGE;
+    if (folder && found.kind == ANG_KIND_DICOM) reads = ang_dicom_probe(path);
+    if (folder && found.kind == ANG_KIND_PICTURES) reads = ang_stack_probe(path);
+    if (folder && found.kind != ANG_KIND_DICOM && found.kind != ANG_KIND_PICTURES)
+        reads = ang_file_same(found.path, path);
+    if (header) reads = reads || ang_header_names(found.path, found.kind == ANG_KIND_NRRD, path);
+    char *sidecar = found.kind == ANG_KIND_PICTURES ? ang_stack_sidecar(found.path) : ang_raw_sidecar(found.path);
+    reads = reads || (sidecar && ang_file_same(sidecar, path));
     free(sidecar);
-    return same;
-}
-
-bool ang_is_dicom(const char *path) {
-    struct stat status;
-    bool there = stat(path, &status) == 0;
-    return there && (S_ISDIR(status.st_mode) || (S_ISREG(status.st_mode) && ang_dicom_probe(path)));
+    ang_found_clear(&found);
+    return reads;
 }
 
 /* Several paths: DICOM, or the first that is something else and can be told. */
@@ -199,8 +204,11 @@ static ang_volume *dispatch_all(const char *const *paths, size_t count, const an
     bool dicom = false;
     size_t other = count;
     for (size_t i = 0; i < count && !dicom; i++) {
-        dicom = ang_is_dicom(paths[i]);
-        if (other == count && (ang_nifti_probe(paths[i]) || ang_raw_probe(paths[i], options))) other = i;
+        ang_found found;
+        if (!ang_kind_find(paths[i], options, progress, &found, err)) return NULL;
+        dicom = found.kind == ANG_KIND_DICOM;
+        if (other == count && found.kind != ANG_KIND_NONE) other = i;
+        ang_found_clear(&found);
     }
     if (dicom && refuse_raw_options(ang_base_name(paths[0]), "DICOM", options, err))
         return ang_dicom_load(paths, count, options, report, progress, err);
@@ -227,8 +235,13 @@ ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_
     if (!options) options = &defaults;
     *err = (ang_error){0};
     ang_load_report_start(report);
-    ang_volume *volume = count == 1 ? dispatch(paths[0], options, report, progress, err)
-                                    : dispatch_all(paths, count, options, report, progress, err);
+    ang_unpacked unpacked;
+    ang_volume *volume = NULL;
+    if (ang_unpack(paths, count, &unpacked, &report->warnings, progress, err))
+        volume = count == 1 ? dispatch(unpacked.path[0], options, report, progress, err)
+                            : dispatch_all(unpacked.path, count, options, report, progress, err);
+    ang_unpacked_name(&unpacked, err);
+    ang_unpacked_clear(&unpacked);
     if (!volume) return NULL;
     *err = (ang_error){0};
     if (!ang_series_take_phase(&report->series[report->chosen], options, &report->phase, err) ||

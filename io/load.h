@@ -1,4 +1,5 @@
-/* A path becomes a volume: DICOM files and folders, NIfTI-1, raw. */
+/* A path becomes a volume: DICOM files and folders, NIfTI-1, NRRD, MetaImage, stacks of pictures, raw; and zip archives
+ * of any of these. */
 #ifndef ANG_IO_LOAD_H
 #define ANG_IO_LOAD_H
 
@@ -51,8 +52,8 @@ typedef struct ang_gap {
 
 /* All that is known of the input beside the voxels. Free with ang_load_report_clear. */
 typedef struct ang_load_report {
-    char format[16];         /* "DICOM", "NIfTI-1", "raw" */
-    ang_series_info *series; /* all series found; at least one for NIfTI and raw too */
+    char format[16];         /* "DICOM", "NIfTI-1", "NRRD", "MetaImage", "pictures", "raw" */
+    ang_series_info *series; /* all series found; at least one for formats of one volume too */
     size_t series_count;
     int chosen;           /* index into `series` */
     int phase;            /* the one loaded, from 1 */
@@ -100,7 +101,8 @@ ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load
 ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_options *options,
                          ang_load_report *report, const ang_progress *progress, ang_error *err);
 
-/* Whether loading `input` reads the file `path`: it is the input, a raw input's sidecar or a DICOM file in the folder.
+/* Whether loading `input` reads the file `path`: it is the input, its sidecar, a file of its
+ * voxels or what is read in the folder.
  * To be asked before `path` is overwritten. */
 bool ang_load_reads(const char *input, const char *path);
 

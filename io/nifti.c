@@ -8,6 +8,9 @@
 
 #ifdef ANG_WITH_NIFTI
 
+#include "core/base/memory.h"
+
+#include <limits.h>
 #include <math.h>
 #include <nifti1_io.h>
 #include <unistd.h>
@@ -68,23 +71,57 @@ static double unit_mm(const nifti_image *image) {
     return image->xyz_units == NIFTI_UNITS_METER ? 1e3 : image->xyz_units == NIFTI_UNITS_MICRON ? 1e-3 : 1;
 }
 
+static bool is_singular(const mat44 *matrix) {
+    ang_mat4 map = ang_mat4_identity(), inverse;
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) map.m[row][column] = (double)matrix->m[row][column];
+    return !ang_mat4_inverse(&map, &inverse);
+}
+
+/* A sform that says voxels of another size than the header's own spacing. */
+static void compare_spacings(const nifti_image *image, ang_load_report *report) {
+    const float size[3] = {image->dx, image->dy, image->dz};
+    for (int axis = 0; axis < 3; axis++) {
+        ang_vec3 step = {(double)image->sto_xyz.m[0][axis], (double)image->sto_xyz.m[1][axis],
+                         (double)image->sto_xyz.m[2][axis]};
+        double length = ang_vec3_length(step), other = fabs((double)size[axis]);
+        if (other > 0 && fabs(length - other) > 0.01 * other)
+            ang_notes_add(&report->warnings,
+                          "along its %s axis the sform says voxels of %.4g, pixdim of %.4g: the sform "
+                          "is taken",
+                          axis == 0   ? "first"
+                          : axis == 1 ? "second"
+                                      : "third",
+                          length, other);
+    }
+}
+
+/* Voxel index to millimetres right, anterior, superior (NIfTI-1, methods 3, 2 and 1). */
+static mat44 find_matrix(const nifti_image *image, ang_load_report *report) {
+    bool sform = image->sform_code > 0 && !is_singular(&image->sto_xyz);
+    if (image->sform_code > 0 && !sform) ang_notes_add(&report->warnings, "its sform is singular and is not used");
+    if (sform) {
+        ang_notes_add(&report->assumptions, "orientation from the sform (code %d)", image->sform_code);
+        compare_spacings(image, report);
+        return image->sto_xyz;
+    }
+    if (image->qform_code > 0) {
+        ang_notes_add(&report->assumptions, "orientation from the qform (code %d)", image->qform_code);
+        return image->qto_xyz;
+    }
+    mat44 matrix = {{{0}}};
+    const float size[3] = {image->dx, image->dy, image->dz};
+    for (int axis = 0; axis < 3; axis++) matrix.m[axis][axis] = size[axis] > 0 ? size[axis] : 1;
+    matrix.m[3][3] = 1;
+    ang_notes_add(&report->warnings, "neither sform nor qform: orientation is not known, x is taken as right, y as "
+                                     "anterior, z as superior");
+    return matrix;
+}
+
 /* NIfTI's axes are right, anterior, superior; ours are left, posterior, superior. */
 static bool set_affine(const nifti_image *image, ang_volume *volume, ang_load_report *report, ang_error *err,
                        const char *label) {
-    mat44 matrix = {{{0}}};
-    if (image->sform_code > 0) {
-        matrix = image->sto_xyz;
-        ang_notes_add(&report->assumptions, "orientation from the sform (code %d)", image->sform_code);
-    } else if (image->qform_code > 0) {
-        matrix = image->qto_xyz;
-        ang_notes_add(&report->assumptions, "orientation from the qform (code %d)", image->qform_code);
-    } else {
-        float size[3] = {image->dx, image->dy, image->dz};
-        for (int axis = 0; axis < 3; axis++) matrix.m[axis][axis] = fabsf(size[axis]) > 0 ? fabsf(size[axis]) : 1;
-        matrix.m[3][3] = 1;
-        ang_notes_add(&report->warnings, "neither sform nor qform: orientation is not known, x is taken as right, y as "
-                                         "anterior, z as superior");
-    }
+    mat44 matrix = find_matrix(image, report);
     double unit = unit_mm(image);
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 4; column++)
@@ -111,16 +148,48 @@ static char *voxel_file(const char *path, const nifti_1_header *header) {
     return NULL;
 }
 
+/* Volumes behind one another: the axes from the fourth on. */
+static int phases_of(const nifti_image *image) {
+    size_t phases = 1;
+    for (int d = 4; d <= image->ndim && d < 8; d++)
+        phases = ang_product3(phases, image->dim[d] > 0 ? (size_t)image->dim[d] : 1, 1);
+    return phases < INT_MAX ? (int)phases : INT_MAX;
+}
+
+/* Names the phases by their times where the header gives any. */
+static bool name_phases(const nifti_image *image, ang_series_info *info, ang_error *err) {
+    const char *unit = image->time_units == NIFTI_UNITS_SEC    ? "s"
+                       : image->time_units == NIFTI_UNITS_MSEC ? "ms"
+                       : image->time_units == NIFTI_UNITS_USEC ? "us"
+                                                               : NULL;
+    if (!unit || info->phases < 2 || !(image->dt > 0) || image->ndim > 4) return true;
+    info->phase_text = ang_alloc((size_t)info->phases, sizeof *info->phase_text, "list of phases", err);
+    if (!info->phase_text) return false;
+    for (int i = 0; i < info->phases; i++) {
+        double at = (double)image->toffset + i * (double)image->dt;
+        if (asprintf(&info->phase_text[i], "time %.6g %s", at, unit) < 0) {
+            info->phase_text[i] = NULL;
+            return ang_fail(err, ANG_LIMIT, "no memory for the list of phases");
+        }
+    }
+    return true;
+}
+
 static ang_volume *load_image(const nifti_image *image, const char *voxels, const char *label,
                               const ang_load_options *options, ang_load_report *report, const ang_progress *progress,
                               ang_error *err) {
-    ang_sample_source source = {.path = voxels, .label = label, .slope = 1, .slices = options->slices};
+    const ang_byte_part part = {.path = voxels};
+    ang_sample_source source = {.label = label,
+                                .parts = {.part = &part, .count = 1},
+                                .slope = 1,
+                                .phases = phases_of(image),
+                                .slices = options->slices};
     if (!sample_type(image->datatype, &source.type)) {
         ang_fail(err, ANG_INPUT, "%s: data type %d (%s) is not read: it must be a whole or floating-point number",
                  label, image->datatype, nifti_datatype_string(image->datatype));
         return NULL;
     }
-    source.offset = image->iname_offset > 0 ? (uint64_t)image->iname_offset : 0;
+    source.parts.skip = image->iname_offset > 0 ? (uint64_t)image->iname_offset : 0;
     source.dims[0] = image->nx;
     source.dims[1] = image->ny > 0 ? image->ny : 1;
     source.dims[2] = image->nz > 0 ? image->nz : 1;
@@ -129,13 +198,12 @@ static ang_volume *load_image(const nifti_image *image, const char *voxels, cons
         source.slope = (double)image->scl_slope;
         source.intercept = isfinite(image->scl_inter) ? (double)image->scl_inter : 0;
     }
-    long more = 1;
-    for (int d = 4; d <= image->ndim && d < 8; d++) more *= image->dim[d] > 0 ? image->dim[d] : 1;
-    if (more > 1) ang_notes_add(&report->assumptions, "the file holds %ld volumes: the first is shown", more);
-
+    if (!ang_samples_phase(label, source.phases, options, &source.phase, err)) return NULL;
     ang_volume *volume = ang_samples_read(&source, options->threads, report, progress, err);
     if (!volume) return NULL;
-    if (set_affine(image, volume, report, err, label) && ang_samples_list(volume, "?", image->descrip, report, err))
+    if (set_affine(image, volume, report, err, label) &&
+        ang_samples_list(volume, source.phases, "?", image->descrip, report, err) &&
+        name_phases(image, report->series, err))
         return volume;
     ang_volume_free(volume);
     return NULL;
@@ -152,6 +220,22 @@ static bool is_sound(const nifti_1_header *header) {
         type = __builtin_bswap16(type);
     }
     return dim[0] >= 1 && dim[0] <= 7 && dim[1] >= 1 && dim[1] <= INT16_MAX && type != DT_UNKNOWN && type != DT_BINARY;
+}
+
+/* Spacings are lengths: where one is negative the library would take 1 mm for it. */
+static void mend_spacings(nifti_1_header *header, ang_load_report *report) {
+    bool negative = false;
+    for (int axis = 1; axis <= 3; axis++) {
+        uint32_t bits; /* in either byte order: the sign is in the first or the last byte */
+        memcpy(&bits, &header->pixdim[axis], sizeof bits);
+        bool swapped = header->sizeof_hdr != (int)sizeof *header;
+        uint32_t sign = swapped ? 0x80U : 0x80000000U;
+        negative = negative || (bits & sign);
+        bits &= ~sign;
+        memcpy(&header->pixdim[axis], &bits, sizeof bits);
+    }
+    if (negative)
+        ang_notes_add(&report->warnings, "a spacing is negative: its amount is taken, and nothing is turned round");
 }
 
 ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, ang_load_report *report,
@@ -172,6 +256,7 @@ ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, an
         ang_fail(err, ANG_INPUT, "%s: its voxels should be in a .img file beside it", label);
         return NULL;
     }
+    mend_spacings(&header, report);
     nifti_set_debug_level(0); /* the library complains to stderr otherwise */
     /* The name decides nothing here, the library wants an ending it knows. */
     nifti_image *image = nifti_convert_nhdr2nim(header, header.magic[1] == '+' ? "volume.nii" : "volume.hdr");

@@ -157,8 +157,9 @@ ang_volume *ang_raw_load(const char *path, const ang_load_options *options, ang_
     snprintf(report->format, sizeof report->format, "raw");
     raw_form form;
     if (!find_form(path, options, &form, report, err)) return NULL;
-    ang_sample_source source = {.path = path,
-                                .label = ang_base_name(path),
+    const ang_byte_part part = {.path = path};
+    ang_sample_source source = {.label = ang_base_name(path),
+                                .parts = {.part = &part, .count = 1},
                                 .type = form.type,
                                 .slope = 1,
                                 .exact_length = true,
@@ -172,7 +173,7 @@ ang_volume *ang_raw_load(const char *path, const ang_load_options *options, ang_
     }
     ang_notes_add(&report->assumptions, "a raw volume says nothing of the patient: x is taken as left, y as posterior, "
                                         "z as superior; its values need not be HU");
-    if (ang_samples_list(volume, "?", ang_base_name(path), report, err)) return volume;
+    if (ang_samples_list(volume, 1, "?", ang_base_name(path), report, err)) return volume;
     ang_volume_free(volume);
     return NULL;
 }

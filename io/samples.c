@@ -3,49 +3,12 @@
 #include "core/base/memory.h"
 #include "io/checksum.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <zlib.h>
 
 enum { samples_per_piece = 1 << 16 };
-
-size_t ang_sample_size(ang_sample type) {
-    static const unsigned char size[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-    return size[type];
-}
-
-static double sample_at(const uint8_t *p, ang_sample type, bool big_endian) {
-    size_t size = ang_sample_size(type);
-    uint64_t bits = 0;
-    for (size_t i = 0; i < size; i++) bits |= (uint64_t)p[big_endian ? size - 1 - i : i] << (8 * i);
-    switch (type) {
-    case ANG_SAMPLE_I8:
-        return (int8_t)bits;
-    case ANG_SAMPLE_I16:
-        return (int16_t)bits;
-    case ANG_SAMPLE_I32:
-        return (int32_t)bits;
-    case ANG_SAMPLE_I64:
-        return (double)(int64_t)bits;
-    case ANG_SAMPLE_F32: {
-        uint32_t word = (uint32_t)bits;
-        float value;
-        memcpy(&value, &word, sizeof value);
-        return (double)value;
-    }
-    case ANG_SAMPLE_F64: {
-        double value;
-        memcpy(&value, &bits, sizeof value);
-        return value;
-    }
-    default:
-        return (double)bits;
-    }
-}
 
 /* How samples become stored values: stored = (sample - low) / step. */
 typedef struct quantiser {
@@ -57,7 +20,8 @@ typedef struct quantiser {
 
 typedef struct reading {
     const ang_sample_source *source;
-    gzFile file;
+    ang_byte_stream *stream; /* of the present pass */
+    size_t run_left;         /* samples of the phase before those of others follow; see phase_run */
     uint8_t *buffer;
     size_t count; /* voxels */
     const char *what;
@@ -68,7 +32,7 @@ typedef struct reading {
 static void scan(const reading *reading, size_t length, quantiser *q) {
     size_t size = ang_sample_size(reading->source->type);
     for (size_t i = 0; i < length; i++) {
-        double v = sample_at(reading->buffer + i * size, reading->source->type, reading->source->big_endian);
+        double v = ang_sample_get(reading->buffer + i * size, reading->source->type, reading->source->big_endian);
         if (isnan(v)) {
             q->nan_count++;
         } else if (isinf(v)) {
@@ -95,7 +59,7 @@ static void store(const reading *reading, size_t length, const quantiser *q, uin
     }
     size_t size = ang_sample_size(type);
     for (size_t i = 0; i < length; i++) {
-        double v = sample_at(p + i * size, type, reading->source->big_endian);
+        double v = ang_sample_get(p + i * size, type, reading->source->big_endian);
         double stored = isnan(v) ? 0 : nearbyint((v - q->low) / q->step);
         out[i] = stored <= 0 ? 0 : stored >= 65535 ? 65535 : (uint16_t)stored;
     }
@@ -119,23 +83,57 @@ static void show_plane(const ang_sample_source *source, const quantiser *q, cons
     source->slices.take(source->slices.context, &slice);
 }
 
-/* One pass over the file: scans into `scanned`, or stores into `out`. */
-static bool pass(const reading *reading, quantiser *scanned, const quantiser *q, uint16_t *out, ang_error *err) {
+static size_t phases_of(const ang_sample_source *source) { return source->phases > 1 ? (size_t)source->phases : 1; }
+
+/* Opens a stream at the phase's first sample. */
+static bool begin(reading *reading, ang_error *err) {
     const ang_sample_source *source = reading->source;
-    size_t size = ang_sample_size(source->type);
-    if (gzrewind(reading->file) != 0 || gzseek(reading->file, (z_off_t)source->offset, SEEK_SET) < 0)
-        return ang_fail(err, ANG_INPUT, "%s: ends before its voxels begin", source->label);
+    size_t run = source->phase_run && phases_of(source) > 1 ? source->phase_run : reading->count;
+    bool ok;
+    ang_byte_stream_close(reading->stream);
+    reading->stream = ang_byte_stream_open(&source->parts, err);
+    if (!reading->stream) return false;
+    reading->run_left = run;
+    uint64_t before = (uint64_t)source->phase * run * ang_sample_size(source->type);
+    if (ang_byte_stream_skip(reading->stream, before, &ok, err)) return true;
+    return ok ? ang_fail(err, ANG_INPUT, "%s: ends before the voxels of phase %d begin", source->label,
+                         source->phase + 1)
+              : false;
+}
+
+/* The next samples of the phase into the buffer, fewer where the data end. */
+static size_t next_samples(reading *reading, size_t length, bool *ok, ang_error *err) {
+    const ang_sample_source *source = reading->source;
+    size_t size = ang_sample_size(source->type), done = 0;
+    *ok = true;
+    while (done < length) {
+        if (reading->run_left == 0) {
+            uint64_t others = (uint64_t)(phases_of(source) - 1) * source->phase_run * size;
+            if (!ang_byte_stream_skip(reading->stream, others, ok, err)) break;
+            reading->run_left = source->phase_run;
+        }
+        size_t wanted = length - done < reading->run_left ? length - done : reading->run_left;
+        size_t got =
+            ang_byte_stream_read(reading->stream, reading->buffer + done * size, wanted * size, ok, err) / size;
+        done += got;
+        reading->run_left -= got;
+        if (got < wanted) break;
+    }
+    return done;
+}
+
+/* One pass over the file: scans into `scanned`, or stores into `out`. */
+static bool pass(reading *reading, quantiser *scanned, const quantiser *q, uint16_t *out, ang_error *err) {
+    const ang_sample_source *source = reading->source;
+    if (!begin(reading, err)) return false;
     for (size_t done = 0; done < reading->count;) {
         size_t length = reading->count - done < samples_per_piece ? reading->count - done : samples_per_piece;
-        int got = gzread(reading->file, reading->buffer, (unsigned)(length * size));
-        if (got < 0 || (size_t)got < length * size) {
-            int code;
-            const char *why = gzerror(reading->file, &code);
-            if (got < 0 && code != Z_BUF_ERROR)
-                return ang_fail(err, ANG_INPUT, "%s: %s", source->label, code == Z_ERRNO ? strerror(errno) : why);
+        bool ok;
+        size_t got = next_samples(reading, length, &ok, err);
+        if (!ok) return false;
+        if (got < length)
             return ang_fail(err, ANG_INPUT, "%s: holds too few voxels, %zu; its dimensions need %zu", source->label,
-                            done + (size_t)(got > 0 ? got : 0) / size, reading->count);
-        }
+                            done + got, reading->count);
         if (scanned)
             scan(reading, length, scanned);
         else
@@ -149,20 +147,24 @@ static bool pass(const reading *reading, quantiser *scanned, const quantiser *q,
     return true;
 }
 
-static bool check_size(const ang_sample_source *source, size_t count, gzFile file, ang_error *err) {
-    struct stat status;
-    size_t bytes = ang_product3(count, ang_sample_size(source->type), 1);
-    if (count == 0 || bytes == 0)
+/* The length of the parts, and whether the files can hold them. */
+static bool check_size(ang_sample_source *source, size_t count, ang_error *err) {
+    size_t size = ang_sample_size(source->type), bytes = ang_product3(count, size, phases_of(source));
+    if (bytes == 0)
         return ang_fail(err, ANG_INPUT, "%s: %d x %d x %d voxels cannot be", source->label, source->dims[0],
                         source->dims[1], source->dims[2]);
-    if (stat(source->path, &status) != 0) return ang_fail(err, ANG_INPUT, "%s: %s", source->label, strerror(errno));
-    /* deflate packs at most 1032 to 1, so the size bounds a compressed file too */
-    double most = (double)status.st_size * (gzdirect(file) ? 1 : 1032);
-    if ((double)bytes + (double)source->offset > most)
-        return ang_fail(err, ANG_INPUT, "%s: %d x %d x %d voxels of %zu bytes do not fit a file of %lld bytes",
-                        source->label, source->dims[0], source->dims[1], source->dims[2], ang_sample_size(source->type),
-                        (long long)status.st_size);
-    return true;
+    if (bytes / size % source->parts.count != 0)
+        return ang_fail(err, ANG_INPUT, "%s: %d x %d x %d voxels cannot be shared out among %zu files", source->label,
+                        source->dims[0], source->dims[1], source->dims[2], source->parts.count);
+    source->parts.part_bytes = bytes / source->parts.count;
+    source->parts.type = source->type;
+    source->parts.width = source->dims[0];
+    source->parts.height = source->dims[1];
+    char what[128], phases[32] = "";
+    if (phases_of(source) > 1) snprintf(phases, sizeof phases, "%d phases of ", source->phases);
+    snprintf(what, sizeof what, "%s%d x %d x %d voxels of %zu byte%s", phases, source->dims[0], source->dims[1],
+             source->dims[2], size, ang_plural((long long)size));
+    return ang_byte_parts_check(&source->parts, source->label, what, err);
 }
 
 /* Reads the voxels; the volume's map is the source's, with slope > 0. */
@@ -230,25 +232,19 @@ static bool finish(ang_volume *volume, int threads, ang_load_report *report, ang
     return true;
 }
 
-ang_volume *ang_samples_read(const ang_sample_source *source, int threads, ang_load_report *report,
+ang_volume *ang_samples_read(ang_sample_source *source, int threads, ang_load_report *report,
                              const ang_progress *progress, ang_error *err) {
     reading reading = {.source = source, .what = "reading voxels", .share = 1, .progress = progress};
     if (source->dims[0] > 0 && source->dims[1] > 0 && source->dims[2] > 0)
         reading.count = ang_product3((size_t)source->dims[0], (size_t)source->dims[1], (size_t)source->dims[2]);
-    reading.file = gzopen(source->path, "rb");
-    if (!reading.file) {
-        ang_fail(err, ANG_INPUT, "%s: %s", source->label, strerror(errno));
-        return NULL;
-    }
-    gzbuffer(reading.file, 1 << 17);
+    if (!check_size(source, reading.count, err)) return NULL;
     ang_volume *volume = NULL;
-    bool ok = check_size(source, reading.count, reading.file, err);
-    if (ok) reading.buffer = ang_alloc(samples_per_piece, ang_sample_size(source->type), "voxels", err);
-    if (ok && reading.buffer) volume = ang_volume_create(source->dims, err);
-    ok = volume && fill(&reading, volume, report, err);
-    if (ok && source->exact_length && gzread(reading.file, reading.buffer, 1) == 1)
+    reading.buffer = ang_alloc(samples_per_piece, ang_sample_size(source->type), "voxels", err);
+    if (reading.buffer) volume = ang_volume_create(source->dims, err);
+    bool ok = volume && fill(&reading, volume, report, err);
+    if (ok && source->exact_length && ang_byte_stream_more(reading.stream))
         ang_notes_add_file(&report->warnings, source->label, "is longer than its voxels; the rest is not used");
-    gzclose(reading.file);
+    ang_byte_stream_close(reading.stream);
     free(reading.buffer);
     if (!ok || !finish(volume, threads, report, err)) {
         ang_volume_free(volume);
@@ -258,8 +254,15 @@ ang_volume *ang_samples_read(const ang_sample_source *source, int threads, ang_l
     return volume;
 }
 
-bool ang_samples_list(const ang_volume *volume, const char *modality, const char *description, ang_load_report *report,
-                      ang_error *err) {
+bool ang_samples_phase(const char *label, int phases, const ang_load_options *options, int *phase, ang_error *err) {
+    *phase = options->phase > 0 ? options->phase - 1 : 0;
+    if (*phase < phases || *phase == 0) return true;
+    if (phases > 1) return ang_fail(err, ANG_INPUT, "--phase %d: %s has phases 1 to %d", *phase + 1, label, phases);
+    return ang_fail(err, ANG_INPUT, "--phase %d: %s is one volume, phase 1", *phase + 1, label);
+}
+
+bool ang_samples_list(const ang_volume *volume, int phases, const char *modality, const char *description,
+                      ang_load_report *report, ang_error *err) {
     report->series = ang_alloc(1, sizeof *report->series, "list of series", err);
     if (!report->series) return false;
     report->series_count = 1;
@@ -271,7 +274,7 @@ bool ang_samples_list(const ang_volume *volume, const char *modality, const char
                               .width = volume->dims[0],
                               .height = volume->dims[1],
                               .slices = volume->dims[2],
-                              .phases = 1,
+                              .phases = phases > 1 ? phases : 1,
                               .loadable = true};
     if (!info->description || !info->uid || !info->remark)
         return ang_fail(err, ANG_LIMIT, "no memory for the list of series");

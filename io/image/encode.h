@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/image.h"
+#include "io/voxels/sample.h"
 
 #include <stddef.h>
 
@@ -45,7 +46,22 @@ bool ang_oiio_text(float *mask, int width, int height, int x, int y, const char 
 /* The text's extent in pixels relative to its baseline: `top` is negative. False as above. */
 bool ang_oiio_text_size(const char *text, int size, const char *font, int *text_width, int *top, int *bottom);
 
-/* What the module exports under this name (ANG_OIIO_SYMBOL): the five functions above. */
+/* A picture file as a stack of grey pages for voxels. */
+typedef struct ang_grey_form {
+    int width, height; /* of every page */
+    int pages;
+    ang_sample type;
+} ang_grey_form;
+
+/* Opens a PNG or TIFF file and tells its form; each page is asked for by ang_oiio_grey_read, in order or not, into
+ * `out`: width x height samples of the form's type in the machine's byte order, as the file has them, rows from the
+ * top. NULL or false with ANG_INPUT (unreadable, in colour, pages that differ), ANG_USAGE (left out of this build),
+ * ANG_LIMIT. One thread at a time for each handle. */
+void *ang_oiio_grey_open(const char *path, ang_grey_form *form, ang_error *err);
+bool ang_oiio_grey_read(void *handle, int page, void *out, ang_error *err);
+void ang_oiio_grey_close(void *handle);
+
+/* What the module exports under this name (ANG_OIIO_SYMBOL): the functions above. */
 typedef struct ang_oiio_functions {
     bool (*encode)(const char *format, const ang_pixels *pixels, ang_bytes *out, ang_error *err);
     bool (*read)(const char *path, const char *format, ang_image *out, ang_error *err);
@@ -53,6 +69,9 @@ typedef struct ang_oiio_functions {
     bool (*text)(float *mask, int width, int height, int x, int y, const char *text, int size, const char *font,
                  int align);
     bool (*text_size)(const char *text, int size, const char *font, int *text_width, int *top, int *bottom);
+    void *(*grey_open)(const char *path, ang_grey_form *form, ang_error *err);
+    bool (*grey_read)(void *handle, int page, void *out, ang_error *err);
+    void (*grey_close)(void *handle);
 } ang_oiio_functions;
 #define ANG_OIIO_MODULE "angioscope-oiio.so"
 #define ANG_OIIO_SYMBOL "ang_oiio_module"

@@ -26,4 +26,17 @@ char *ang_oiio_text_of(const char *path, const char *format, const char *name, a
     refuse(err);
     return NULL;
 }
+
+void *ang_oiio_grey_open(const char *path, ang_grey_form *form, ang_error *err) {
+    (void)path, (void)form;
+    refuse(err);
+    return NULL;
+}
+
+bool ang_oiio_grey_read(void *handle, int page, void *out, ang_error *err) {
+    (void)handle, (void)page, (void)out;
+    return refuse(err);
+}
+
+void ang_oiio_grey_close(void *handle) { (void)handle; }
 #endif

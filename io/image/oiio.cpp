@@ -2,6 +2,7 @@ extern "C" {
 #include "io/image/encode.h"
 #include "io/image/image_io.h"
 }
+#include "io/image/oiio_grey.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
@@ -163,5 +164,5 @@ static bool draw_text(float *mask, int width, int height, int x, int y, const ch
     }
 }
 
-extern "C" __attribute__((visibility("default")))
-const ang_oiio_functions ang_oiio_module = {encode_picture, read_picture, text_of, draw_text, measure_text};
+extern "C" __attribute__((visibility("default"))) const ang_oiio_functions ang_oiio_module = {
+    encode_picture, read_picture, text_of, draw_text, measure_text, ang_grey_open, ang_grey_read, ang_grey_close};

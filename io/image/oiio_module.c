@@ -32,3 +32,18 @@ bool ang_oiio_text_size(const char *text, int size, const char *font, int *text_
     const ang_oiio_functions *oiio = module(ANG_OUTPUT, NULL);
     return oiio && oiio->text_size(text, size, font, text_width, top, bottom);
 }
+
+void *ang_oiio_grey_open(const char *path, ang_grey_form *form, ang_error *err) {
+    const ang_oiio_functions *oiio = module(ANG_INPUT, err);
+    return oiio ? oiio->grey_open(path, form, err) : NULL;
+}
+
+bool ang_oiio_grey_read(void *handle, int page, void *out, ang_error *err) {
+    const ang_oiio_functions *oiio = module(ANG_INPUT, err);
+    return oiio && oiio->grey_read(handle, page, out, err);
+}
+
+void ang_oiio_grey_close(void *handle) {
+    const ang_oiio_functions *oiio = module(ANG_INPUT, NULL);
+    if (oiio) oiio->grey_close(handle);
+}

@@ -1,6 +1,7 @@
 /* What the file browser lists, and paths as text. */
 #include "tests/core/fixtures.h"
 
+#include "core/base/name_order.h"
 #include "ui/state/file_list.h"
 
 #include <stdlib.h>
@@ -26,7 +27,7 @@ static void names_of_images_are_told(void **state) {
     static const char *const images[] = {
         "IM0001",  "a.dcm", "A.DCM", "x.ima", "brain.nii", "brain.nii.gz", "v.hdr", "v.raw.gz", "1.2.840.113619.2.5",
         "00000012"};
-    static const char *const others[] = {"notes.txt", "a.json", "p.png", "x.dcm.bak", "archive.zip", "b.nii.bz2", "a."};
+    static const char *const others[] = {"notes.txt", "a.json", "p.jpg", "x.dcm.bak", "archive.tar", "b.nii.bz2", "a."};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++) assert_true(ang_name_could_be_image(images[i]));
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) assert_false(ang_name_could_be_image(others[i]));
 }

@@ -1,5 +1,7 @@
 #include "ui/state/file_list.h"
 
+#include "core/base/name_order.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,30 +30,6 @@ void ang_file_list_clear(ang_file_list *list) {
 
 static size_t digits(const char *text) { return strspn(text, "0123456789"); }
 
-int ang_name_compare(const char *a, const char *b) {
-    const char *from_a = a, *from_b = b;
-    while (*a && *b) {
-        size_t in_a = digits(a), in_b = digits(b);
-        if (in_a && in_b) {
-            size_t zeros_a = strspn(a, "0"), zeros_b = strspn(b, "0");
-            size_t length_a = in_a - (zeros_a < in_a ? zeros_a : in_a);
-            size_t length_b = in_b - (zeros_b < in_b ? zeros_b : in_b);
-            if (length_a != length_b) return length_a < length_b ? -1 : 1;
-            int order = strncmp(a + in_a - length_a, b + in_b - length_b, length_a);
-            if (order) return order;
-            a += in_a;
-            b += in_b;
-            continue;
-        }
-        int order = tolower((unsigned char)*a) - tolower((unsigned char)*b);
-        if (order) return order;
-        a++;
-        b++;
-    }
-    if (*a || *b) return *a ? 1 : -1;
-    return strcmp(from_a, from_b);
-}
-
 static int compare_entries(const void *left, const void *right) {
     const ang_file_entry *a = left, *b = right;
     if (a->folder != b->folder) return a->folder ? -1 : 1;
@@ -62,18 +40,22 @@ void ang_file_list_sort(ang_file_list *list) {
     if (list->count > 1) qsort(list->entry, list->count, sizeof *list->entry, compare_entries);
 }
 
+/* A state or a picture that carries one. */
+static bool is_own(const char *name) { return strncmp(name, "angioscope-", 11) == 0; }
+
 bool ang_file_list_is_series(const ang_file_list *list) {
     bool images = false;
     for (size_t i = 0; i < list->count; i++) {
         const ang_file_entry *entry = &list->entry[i];
-        if (entry->folder && entry->name[0] != '.') return false;
+        if ((entry->folder && entry->name[0] != '.') || is_own(entry->name)) return false;
         images = images || (entry->image && entry->name[0] != '.');
     }
     return images;
 }
 
 bool ang_name_could_be_image(const char *name) {
-    static const char *const endings[] = {".dcm", ".dicom", ".ima", ".nii", ".nii.gz", ".hdr", ".raw", ".raw.gz"};
+    static const char *const endings[] = {".dcm",  ".dicom", ".ima", ".nii", ".nii.gz", ".hdr",  ".raw", ".raw.gz",
+                                          ".nrrd", ".nhdr",  ".mha", ".mhd", ".tif",    ".tiff", ".png", ".zip"};
     size_t length = strlen(name);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         size_t end = strlen(endings[i]);
@@ -87,8 +69,7 @@ static bool begins_with(const char *name, const char *typed) { return strncasecm
 
 static bool is_listed(const ang_file_entry *entry, ang_file_filter filter, const char *typed) {
     if (entry->name[0] == '.' && !filter.hidden && typed[0] != '.') return false;
-    bool own = strncmp(entry->name, "angioscope-", 11) == 0; /* a state or a picture that carries one */
-    return entry->folder || entry->image || own || filter.all;
+    return entry->folder || entry->image || is_own(entry->name) || filter.all;
 }
 
 size_t ang_file_list_show(const ang_file_list *list, ang_file_filter filter, const char *typed, size_t *shown) {

@@ -23,11 +23,10 @@ void ang_file_list_add(ang_file_list *list, const char *name, bool folder, long 
 void ang_file_list_clear(ang_file_list *list);
 /* Folders first, each by ang_name_compare. */
 void ang_file_list_sort(ang_file_list *list);
-/* Whether it is a folder to be opened as a whole: it holds what could be images and no folder to go into. */
+/* Whether it is a folder to be opened as a whole: it holds what could be images, no folder to go into and no file of
+ * this program's own. */
 bool ang_file_list_is_series(const ang_file_list *list);
 
-/* By letters without regard to case, runs of digits by their value: "IM9" before "im10". */
-int ang_name_compare(const char *a, const char *b);
 /* Whether a file of this name could be an image: it has the ending of a format that is read, none, or one of digits, as
  * files named by a UID have. */
 bool ang_name_could_be_image(const char *name);

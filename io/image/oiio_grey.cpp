@@ -1,0 +1,140 @@
+#include "io/image/oiio_grey.hpp"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <string>
+
+using namespace OIIO;
+
+namespace {
+
+struct grey_file {
+    std::unique_ptr<ImageInput> input;
+    std::string label;
+    ang_grey_form form;
+    TypeDesc format;
+    int bits; /* of a sample where the file has fewer than its type; else 0 */
+};
+
+std::string base_name(const char *path) {
+    std::string name(path);
+    return name.substr(name.find_last_of('/') + 1);
+}
+
+bool sample_of(const TypeDesc &format, ang_sample *sample, TypeDesc *read_as) {
+    *read_as = format;
+    switch (format.basetype) {
+    case TypeDesc::UINT8:
+        *sample = ANG_SAMPLE_U8;
+        return true;
+    case TypeDesc::INT8:
+        *sample = ANG_SAMPLE_I8;
+        return true;
+    case TypeDesc::UINT16:
+        *sample = ANG_SAMPLE_U16;
+        return true;
+    case TypeDesc::INT16:
+        *sample = ANG_SAMPLE_I16;
+        return true;
+    case TypeDesc::UINT32:
+        *sample = ANG_SAMPLE_U32;
+        return true;
+    case TypeDesc::INT32:
+        *sample = ANG_SAMPLE_I32;
+        return true;
+    case TypeDesc::HALF:
+    case TypeDesc::FLOAT:
+        *sample = ANG_SAMPLE_F32;
+        *read_as = TypeDesc::FLOAT;
+        return true;
+    case TypeDesc::DOUBLE:
+        *sample = ANG_SAMPLE_F64;
+        return true;
+    default:
+        return false;
+    }
+}
+
+bool fail_reading(const std::string &label, std::string reason, ang_error *err) {
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    return ang_fail(err, ANG_INPUT, "%s: cannot be read as a picture (%s)", label.c_str(), reason.c_str());
+}
+
+bool take_form(grey_file &file, const ImageSpec &spec, ang_error *err) {
+    if (spec.nchannels != 1)
+        return ang_fail(err, ANG_INPUT, "%s: is in colour or has alpha (%d channels): a stack is of grey pictures",
+                        file.label.c_str(), spec.nchannels);
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1)
+        return ang_fail(err, ANG_INPUT, "%s: is no picture in one layer", file.label.c_str());
+    int bits = spec.get_int_attribute("oiio:BitsPerSample", 0);
+    file.bits = bits > 0 && bits < int(spec.format.basesize()) * 8 ? bits : 0;
+    file.form = {spec.width, spec.height, 1, ANG_SAMPLE_U8};
+    return sample_of(spec.format, &file.form.type, &file.format) ||
+           ang_fail(err, ANG_INPUT, "%s: its numbers are of a type that is not read (%s)", file.label.c_str(),
+                    spec.format.c_str());
+}
+
+/* The library stretches samples of 1 to 7 and 9 to 15 bits over the whole of their type. */
+template <typename number> void unstretch(number *samples, size_t count, int bits) {
+    unsigned whole = (1U << (8 * sizeof(number))) - 1, most = (1U << bits) - 1;
+    for (size_t i = 0; i < count; i++) samples[i] = number((uint64_t(samples[i]) * most + whole / 2) / whole);
+}
+
+} // namespace
+
+void *ang_grey_open(const char *path, ang_grey_form *form, ang_error *err) {
+    try {
+        auto file = std::make_unique<grey_file>();
+        ImageSpec wish;
+        file->label = base_name(path);
+        wish.attribute("oiio:UnassociatedAlpha", 1);
+        file->input = ImageInput::open(path, &wish);
+        if (!file->input) {
+            fail_reading(file->label, geterror(), err);
+            return nullptr;
+        }
+        if (!take_form(*file, file->input->spec(), err)) return nullptr;
+        ang_grey_form first = file->form;
+        while (file->input->seek_subimage(first.pages, 0)) {
+            if (!take_form(*file, file->input->spec(), err)) return nullptr;
+            if (file->form.width != first.width || file->form.height != first.height || file->form.type != first.type) {
+                ang_fail(err, ANG_INPUT, "%s: its page %d is %d x %d, unlike the first, %d x %d, or of another type",
+                         file->label.c_str(), first.pages + 1, file->form.width, file->form.height, first.width,
+                         first.height);
+                return nullptr;
+            }
+            first.pages++;
+        }
+        file->input->geterror(); /* there is no further page: no error */
+        file->form = *form = first;
+        return file.release();
+    } catch (const std::bad_alloc &) {
+        ang_fail(err, ANG_LIMIT, "%s: no memory for the picture", path);
+    } catch (const std::exception &exception) {
+        ang_fail(err, ANG_INPUT, "%s: cannot be read (%s)", path, exception.what());
+    }
+    return nullptr;
+}
+
+bool ang_grey_read(void *handle, int page, void *out, ang_error *err) {
+    auto *file = static_cast<grey_file *>(handle);
+    try {
+        if (!file->input->read_image(page, 0, 0, 1, file->format, out))
+            return fail_reading(file->label, file->input->geterror(), err);
+        size_t count = size_t(file->form.width) * size_t(file->form.height);
+        if (file->bits > 0 && file->form.type == ANG_SAMPLE_U8)
+            unstretch(static_cast<unsigned char *>(out), count, file->bits);
+        if (file->bits > 0 && file->form.type == ANG_SAMPLE_U16)
+            unstretch(static_cast<unsigned short *>(out), count, file->bits);
+        return true;
+    } catch (const std::bad_alloc &) {
+        return ang_fail(err, ANG_LIMIT, "%s: no memory for the picture", file->label.c_str());
+    } catch (const std::exception &exception) {
+        return ang_fail(err, ANG_INPUT, "%s: cannot be read (%s)", file->label.c_str(), exception.what());
+    }
+}
+
+void ang_grey_close(void *handle) { delete static_cast<grey_file *>(handle); }
