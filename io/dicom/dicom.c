@@ -134,6 +134,16 @@ static ang_volume *build(const ang_dicom_folder *folder, ang_dicom_group *group,
     return volume;
 }
 
+/* A folder of two patients: the largest volume may be the wrong one's. */
+static void note_patients(const ang_dicom_listing *listing, const ang_dicom_slice *shown, bool asked_for,
+                          ang_load_report *report) {
+    size_t others = 0, count = listing->folder.slice_count;
+    for (size_t i = 0; i < count; i++) others += !ang_dicom_same_patient(shown, &listing->folder.slices[i]);
+    if (others > 0)
+        ang_notes_add(asked_for ? &report->assumptions : &report->warnings,
+                      "%zu of %zu images are another patient's than the series that is shown", others, count);
+}
+
 /* What was left out of the group that is shown, and what of it is only assumed. */
 static void note_choice(const ang_dicom_listing *listing, size_t chosen, const ang_load_options *options,
                         ang_load_report *report) {
@@ -143,6 +153,7 @@ static void note_choice(const ang_dicom_listing *listing, size_t chosen, const a
     if (groups->series_count > 1 && !options->series)
         ang_notes_add(&report->assumptions, "series %d of %d is shown: the largest %s volume; --series picks another",
                       group->series, groups->series_count, strcmp(first->modality, "CT") == 0 ? "CT" : "image");
+    note_patients(listing, first, options->series != NULL, report);
     if (group->duplicates > 0)
         ang_notes_add(&report->assumptions, "%d slice%s with the same %s and pixels as another: dropped",
                       group->duplicates, ang_plural(group->duplicates),

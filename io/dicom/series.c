@@ -35,10 +35,16 @@ static bool same_image_type(const ang_dicom_slice *a, const ang_dicom_slice *b) 
     return true;
 }
 
+bool ang_dicom_same_patient(const ang_dicom_slice *a, const ang_dicom_slice *b) {
+    if (a->patient_id[0] && b->patient_id[0]) return strcmp(a->patient_id, b->patient_id) == 0;
+    return !a->patient[0] || !b->patient[0] || strcmp(a->patient, b->patient) == 0;
+}
+
 /* Whether two slices of one series may belong to one volume (rule 1). */
 static bool alike(const ang_dicom_slice *a, const ang_dicom_slice *b) {
     if (strcmp(a->refusal, b->refusal) != 0 || a->image != b->image) return false;
     if (!a->image) return true;
+    if (!ang_dicom_same_patient(a, b)) return false; /* one UID for two, as careless de-identification leaves it */
     if (a->rows != b->rows || a->columns != b->columns || !same_image_type(a, b)) return false;
     if (strcmp(a->stack_id, b->stack_id) != 0 || strcmp(a->modality, b->modality) != 0) return false;
     if (a->has_orientation != b->has_orientation || a->has_position != b->has_position) return false;

@@ -32,6 +32,9 @@ typedef struct ang_dicom_groups {
     int series_count; /* in the list */
 } ang_dicom_groups;
 
+/* Whether two slices may be of one patient: by PatientID, by PatientName where one has no ID. */
+bool ang_dicom_same_patient(const ang_dicom_slice *a, const ang_dicom_slice *b);
+
 /* How the pixels of two slices compare. */
 typedef enum ang_dicom_likeness {
     ANG_DICOM_SAME,

@@ -50,8 +50,9 @@ typedef struct form {
     bool damaged; /* the header is sound, the (compressed) pixels are not */
     bool no_image;
     int padding;
-    const char *trigger_time, *patient_id, *series_uid;
-    int temporal_position; /* 0: none */
+    const char *trigger_time, *patient_id, *series_uid, *padding_vr;
+    int temporal_position;                  /* 0: none */
+    int columns, rows, bits_stored, frames; /* 0: width, height, 16, one */
     uint16_t pixels[width * height];
 } form;
 
@@ -91,14 +92,18 @@ static inline void small(const char *name, const form *form) {
         return;
     }
     put_text(&f, 0x28, 0x04, "CS", form->photometric ? form->photometric : "MONOCHROME2");
-    if (!form->no_rows) put_word(&f, 0x28, 0x10, height);
-    put_word(&f, 0x28, 0x11, width);
+    snprintf(text, sizeof text, "%d", form->frames);
+    if (form->frames) put_text(&f, 0x28, 0x08, "IS", text);
+    int columns = form->columns ? form->columns : width, rows = form->rows ? form->rows : height;
+    if (!form->no_rows) put_word(&f, 0x28, 0x10, rows);
+    put_word(&f, 0x28, 0x11, columns);
     put_text(&f, 0x28, 0x30, "DS", form->spacing ? form->spacing : "0.5\\0.25");
     put_word(&f, 0x28, 0x100, 16);
-    put_word(&f, 0x28, 0x101, 16);
-    put_word(&f, 0x28, 0x102, 15);
+    put_word(&f, 0x28, 0x101, form->bits_stored ? form->bits_stored : 16);
+    put_word(&f, 0x28, 0x102, form->bits_stored ? form->bits_stored - 1 : 15);
     put_word(&f, 0x28, 0x103, form->is_signed);
-    if (form->has_padding) put_word(&f, 0x28, 0x120, form->padding);
+    uint8_t padding[2] = {(uint8_t)form->padding, (uint8_t)(form->padding >> 8)};
+    if (form->has_padding) put(&f, 0x28, 0x120, form->padding_vr ? form->padding_vr : "US", padding, 2);
     put_text(&f, 0x28, 0x1052, "DS", form->intercept ? form->intercept : "-1024");
     put_text(&f, 0x28, 0x1053, "DS", form->slope ? form->slope : "1");
     uint8_t pixels[2 * width * height];
@@ -115,7 +120,7 @@ static inline void small(const char *name, const form *form) {
         memcpy(f.bytes + f.size, damaged, sizeof damaged);
         f.size += sizeof damaged;
     } else {
-        put(&f, 0x7FE0, 0x10, "OW", pixels, sizeof pixels);
+        put(&f, 0x7FE0, 0x10, "OW", pixels, 2 * (size_t)columns * (size_t)rows);
     }
     write_small(name, &f, form->cut ? 7 : 0);
 }
