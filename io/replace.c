@@ -15,11 +15,11 @@ static bool fail(const char *path, int reason, ang_error *err) {
 }
 
 /* O_EXCL instead of mkstemp: the file gets the permissions that the user's umask gives, not 0600. */
-static int open_temporary(const char *path, char *temporary, size_t size) {
+static int open_temporary(const char *path, const char *ending, char *temporary, size_t size) {
     const char *slash = strrchr(path, '/');
     int folder = slash ? (int)(slash - path) + 1 : 0;
     for (unsigned attempt = 0; attempt < 10000; attempt++) {
-        int length = snprintf(temporary, size, "%.*s.ang-%ld-%u.part", folder, path, (long)getpid(), attempt);
+        int length = snprintf(temporary, size, "%.*s.ang-%ld-%u.part%s", folder, path, (long)getpid(), attempt, ending);
         if (length < 0 || (size_t)length >= size) {
             errno = ENAMETOOLONG;
             return -1;
@@ -31,6 +31,9 @@ static int open_temporary(const char *path, char *temporary, size_t size) {
     return -1;
 }
 
+/* Some file systems cannot flush: that is no failure to write. */
+static bool flush(int file) { return fsync(file) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP; }
+
 static bool write_all(int file, const unsigned char *data, size_t size) {
     while (size > 0) {
         ssize_t written = write(file, data, size);
@@ -41,8 +44,7 @@ static bool write_all(int file, const unsigned char *data, size_t size) {
         data += written;
         size -= (size_t)written;
     }
-    /* Some file systems cannot flush: that is no failure to write. */
-    return fsync(file) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
+    return flush(file);
 }
 
 /* The folder of `path`, in `folder` of PATH_MAX bytes: with its final slash, or ".". */
@@ -80,7 +82,7 @@ bool ang_file_replaceable(const char *path, ang_error *err) {
 bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err) {
     if (!ang_file_replaceable(path, err)) return false;
     char temporary[PATH_MAX];
-    int file = open_temporary(path, temporary, sizeof temporary);
+    int file = open_temporary(path, "", temporary, sizeof temporary);
     if (file < 0) return fail(path, errno, err);
 
     bool good = write_all(file, data, size);
@@ -98,6 +100,28 @@ bool ang_file_replace(const char *path, const void *data, size_t size, ang_error
         return fail(path, reason, err);
     }
     return true;
+}
+
+bool ang_file_temporary(const char *path, const char *ending, char *temporary, size_t size, ang_error *err) {
+    temporary[0] = '\0';
+    if (!ang_file_replaceable(path, err)) return false;
+    int file = open_temporary(path, ending, temporary, size);
+    if (file < 0) {
+        temporary[0] = '\0';
+        return fail(path, errno, err);
+    }
+    close(file);
+    return true;
+}
+
+bool ang_file_rename(const char *temporary, const char *path, ang_error *err) {
+    int file = open(temporary, O_RDONLY | O_CLOEXEC);
+    if (file < 0) return fail(path, errno, err);
+    bool flushed = flush(file);
+    int reason = errno;
+    close(file);
+    if (!flushed) return fail(path, reason, err);
+    return rename(temporary, path) == 0 || fail(path, errno, err);
 }
 
 bool ang_folder_make(const char *path, ang_error *err) {

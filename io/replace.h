@@ -16,6 +16,12 @@ bool ang_file_replace(const char *path, const void *data, size_t size, ang_error
  * Thread safe. */
 bool ang_file_replaceable(const char *path, ang_error *err);
 
+/* The same for files that others write. First a temporary file of no bytes is made in the folder of `path`, its name with
+ * `ending` (such as ".mp4") behind; false with ANG_OUTPUT. Once it is written, the second flushes it to the disk and
+ * renames it over `path`; false with ANG_OUTPUT, and then the temporary file is the caller's to remove. */
+bool ang_file_temporary(const char *path, const char *ending, char *temporary, size_t size, ang_error *err);
+bool ang_file_rename(const char *temporary, const char *path, ang_error *err);
+
 /* Whether two paths, however spelt, name one file: by device and inode, or by folder and name where there is no file
  * yet. Thread safe. */
 bool ang_file_same(const char *a, const char *b);

@@ -158,6 +158,24 @@ bool ang_image_png(const ang_image *image, const double background[4], unsigned 
     return whole;
 }
 
+bool ang_image_rgb(const ang_image *image, const double background[4], unsigned char **rgb, ang_error *err) {
+    int channels;
+    if (!quantise(image, background, rgb, &channels, err)) {
+        *rgb = NULL;
+        return false;
+    }
+    float *pixels = NULL;
+    if (channels == 3) return true;
+    bool done = flatten(image, background, 3, &pixels, err);
+    size_t values = 3 * (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < values && done; i++) (*rgb)[i] = to_byte(pixels[i]);
+    free(pixels);
+    if (done) return true;
+    free(*rgb);
+    *rgb = NULL;
+    return false;
+}
+
 bool ang_picture_read(const char *path, ang_image *out, ang_error *err) {
     *out = (ang_image){0};
     format format = format_of(path);

@@ -37,6 +37,10 @@ double ang_image_rounding(const char *path, const double background[4]);
 bool ang_image_png(const ang_image *image, const double background[4], unsigned char **data, size_t *size,
                    ang_error *err);
 
+/* The picture as 8 bits a channel, red, green and blue, rows from the top, into *rgb (free with free()): what is in the
+ * .png, and where that is not opaque over black. False with ANG_LIMIT. Thread safe. */
+bool ang_image_rgb(const ang_image *image, const double background[4], unsigned char **rgb, ang_error *err);
+
 /* False where ang_image_write would fail as things stand, with ANG_USAGE for the extension of `path` and ANG_OUTPUT for
  * its folder: to be asked before long work. Thread safe. */
 bool ang_image_writable(const char *path, ang_error *err);
