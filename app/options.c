@@ -23,7 +23,9 @@
 
 static const ang_option table[] = {
     {"output", 'o', TEXT, ANG_VERB_RENDER, FIELD(output), "OUT", 0, 0, NULL, NULL,
-     "picture to write: .png or .tif (8 bit), .exr (float), .ppm (8 bit) or .pfm (float); numbered with --frames"},
+     "picture to write: .png or .tif (8 bit), .exr (float), .ppm (8 bit), .pfm (float) or .dcm (DICOM secondary "
+     "capture), "
+     "numbered with --frames; or a film of the frames: .mp4 (H.264) or .avi (FFV1, without loss)"},
     {"output", 'o', TEXT, ANG_VERB_REPORT, FIELD(output), "DIR", 0, 0, NULL, NULL,
      "folder to write report.html, .csv, .json and plots into; made where it does not exist; what was measured there "
      "before is taken over"},
@@ -139,6 +141,9 @@ static const ang_option table[] = {
     INTEGER_OPTION("frames", ANG_VERB_RENDER, frames, 1, 100000, "1", "number of pictures, spread over --orbit"),
     REAL_OPTION("orbit", ANG_VERB_RENDER, orbit, "DEG", -36000, 36000, "0", "degrees",
                 "turn of the camera's azimuth over all frames"),
+    TEXT_OPTION("sweep", ANG_VERB_RENDER, sweep, "PRESET,PRESET,...", NULL,
+                "go from preset to preset over all frames, instead of --preset; all must be of one mode"),
+    REAL_OPTION("fps", ANG_VERB_RENDER, fps, "N", 1, 240, "25", "frames a second", "speed of a film"),
     INTEGER_OPTION("repeat", ANG_VERB_RENDER, repeat, 0, 100000, "0",
                    "time this many frames after one warm-up, spread over --orbit"),
     CHOICE_OPTION("backend", backend, "auto|egl|osmesa|none", "auto", "where OpenGL comes from; none: without OpenGL"),

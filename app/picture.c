@@ -92,20 +92,13 @@ bool ang_picture_start(const ang_options *options, ang_picture *picture, ang_err
     return picture->preset != NULL;
 }
 
-bool ang_picture_make(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
-                      ang_picture *picture, ang_notes *assumptions, ang_error *err) {
+bool ang_picture_use_preset(const ang_options *options, ang_picture *picture, ang_notes *assumptions, ang_error *err) {
     ang_scene *scene = &picture->scene;
-    *scene = ang_scene_default(volume);
-    int size[2];
-    if (!ang_app_parse_dims("size", options->size, 2, 65536, size, err)) return false;
-    scene->width = size[0];
-    scene->height = size[1];
-
-    if (!picture->preset) picture->preset = ang_picture_choose_preset(options, volume, report, assumptions, err);
-    if (!picture->preset) return false;
     const ang_preset *preset = picture->preset;
     scene->transfer = preset->transfer;
     picture->shift_hu = options->shift;
+    ang_transfer_free(picture->shifted);
+    picture->shifted = NULL;
     if (options->shift != 0) {
         picture->shifted = ang_transfer_shifted(preset->transfer, options->shift, err);
         if (!picture->shifted) return false;
@@ -124,6 +117,21 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     if (scene->mode != ANG_MODE_ISO && !isnan(options->iso))
         ang_notes_add(assumptions, "--iso has no effect in mode %s; --mode iso shows the surface",
                       ang_mode_name(scene->mode));
+
+    return true;
+}
+
+bool ang_picture_make(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
+                      ang_picture *picture, ang_notes *assumptions, ang_error *err) {
+    ang_scene *scene = &picture->scene;
+    *scene = ang_scene_default(volume);
+    int size[2];
+    if (!ang_app_parse_dims("size", options->size, 2, 65536, size, err)) return false;
+    scene->width = size[0];
+    scene->height = size[1];
+
+    if (!picture->preset) picture->preset = ang_picture_choose_preset(options, volume, report, assumptions, err);
+    if (!picture->preset || !ang_picture_use_preset(options, picture, assumptions, err)) return false;
 
     picture->view = ang_view_default;
     if (!ang_view_parse(options->view, &picture->view, err)) return false;

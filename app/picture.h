@@ -30,6 +30,8 @@ bool ang_picture_start(const ang_options *options, ang_picture *picture, ang_err
  * `assumptions`. False with ANG_USAGE, naming the option, or what reading the preset gives. */
 bool ang_picture_make(const ang_options *options, const ang_volume *volume, const ang_load_report *report,
                       ang_picture *picture, ang_notes *assumptions, ang_error *err);
+/* Makes the scene, which is otherwise there, show picture->preset, as ang_picture_make does. */
+bool ang_picture_use_preset(const ang_options *options, ang_picture *picture, ang_notes *assumptions, ang_error *err);
 /* Both with the loading of options->arguments[0] between them, as every verb that draws begins. Tells the user, unless
  * quiet, what was chosen for him, which is added to the report's assumptions. `milliseconds` is that of loading. False
  * as these and ang_load; what has been made by then is the caller's to free. */

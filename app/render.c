@@ -2,6 +2,8 @@
 #include "app/picture.h"
 #include "app/picture_state.h"
 #include "app/render_json.h"
+#include "app/render_output.h"
+#include "app/sweep.h"
 #include "app/verbs.h"
 #include "core/base/clock.h"
 #include "core/base/memory.h"
@@ -9,9 +11,6 @@
 #include "core/render/context.h"
 #include "core/render/kept.h"
 #include "io/image/annotate.h"
-#include "io/image/image_io.h"
-#include "io/preset.h"
-#include "io/replace.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,6 +36,8 @@ typedef struct session {
     ang_image drawn; /* where pixels between are interpolated: those that are not */
     ang_kept kept;
     float *counts; /* of each pixel, for --mode lookups */
+    ang_sweep sweep;
+    ang_render_output output;
     ang_render_summary summary;
 } session;
 
@@ -261,15 +262,6 @@ static void turn_camera(session *run, double degrees) {
     run->picture.scene.camera = ang_camera_for(run->volume, &run->view);
 }
 
-/* OUT.png becomes OUT-0007.png where several pictures are made. */
-static void frame_path(const char *output, int frame, int frames, char *path, size_t size) {
-    const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
-    if (frames == 1 || !dot)
-        snprintf(path, size, "%s", output);
-    else
-        snprintf(path, size, "%.*s-%04d%s", (int)(dot - output), output, frame + 1, dot);
-}
-
 /* How wrong the picture may be: of the first one for the JSON, of each one for its annotation. */
 static bool estimate_error(session *run, int frame, ang_error_estimate *estimate, ang_error *err) {
     const ang_options *options = run->options;
@@ -283,11 +275,18 @@ static bool estimate_error(session *run, int frame, ang_error_estimate *estimate
     if (frame > 0) return true;
     run->summary.estimated = true;
     run->summary.error = *estimate;
-    run->summary.quantisation = ang_image_rounding(options->output, run->picture.scene.background);
+    run->summary.quantisation = ang_render_output_rounding(options, run->picture.scene.background);
     return true;
 }
 
-static bool write_picture(session *run, const char *path, const ang_error_estimate *estimate, double milliseconds,
+/* What a file says of how its picture came to be. */
+static void describe(const session *run, char *text, size_t size) {
+    const ang_scene *scene = &run->picture.scene;
+    snprintf(text, size, "Angioscope " ANG_VERSION ": mode %s, preset %s, method %s, step %.3g mm. Not for diagnosis.",
+             ang_mode_name(scene->mode), run->picture.preset->name, run->method->name, run->summary.stats.step_mm);
+}
+
+static bool write_picture(session *run, int frame, const ang_error_estimate *estimate, double milliseconds,
                           ang_error *err) {
     const ang_scene *scene = &run->picture.scene;
     if (run->options->annotate || scene->objects) {
@@ -299,10 +298,23 @@ static bool write_picture(session *run, const char *path, const ang_error_estima
     }
     ang_picture shown = run->picture;
     shown.view = run->view;
+    char description[512];
+    describe(run, description, sizeof description);
     char *state = ang_picture_state_print(run->options, &shown, run->method, &run->report, err);
-    bool written = state && ang_image_write_stated(path, &run->image, run->picture.scene.background, state, err);
+    ang_render_words words = {.state = state, .description = description, .scene = scene};
+    bool written = state && ang_render_output_add(&run->output, frame, &run->image, &words, err);
     free(state);
     return written;
+}
+
+/* The preset of a frame of a sweep. */
+static bool take_preset(session *run, int frame, ang_error *err) {
+    if (run->sweep.count == 0) return true;
+    ang_preset *preset = ang_sweep_at(&run->sweep, frame, run->options->frames, err);
+    if (!preset) return false;
+    ang_preset_free(run->picture.preset);
+    run->picture.preset = preset;
+    return ang_picture_use_preset(run->options, &run->picture, &run->summary.warnings, err);
 }
 
 /* Room for the counts of --mode lookups; NULL where they are not wanted, or with an error. */
@@ -322,8 +334,8 @@ static bool render_all(session *run, ang_error *err) {
     if (!ang_image_create(&run->image, run->picture.scene.width, run->picture.scene.height, err)) return false;
     if (run->picture.lookups && !make_counts(run, err)) return false;
     for (int frame = 0; frame < options->frames; frame++) {
-        char path[4096];
         double milliseconds;
+        if (!take_preset(run, frame, err)) return false;
         turn_camera(run, options->orbit * frame / options->frames);
         frame_progress progress = {.what = "rendering", .frame = frame, .frames = options->frames};
         ang_frame_stats stats = {.counts = run->counts};
@@ -343,13 +355,12 @@ static bool render_all(session *run, ang_error *err) {
             note_empty(run);
             note_flat(run);
         }
-        frame_path(options->output, frame, options->frames, path, sizeof path);
         ang_error_estimate estimate;
         if (!estimate_error(run, frame, &estimate, err)) return false;
-        if (!write_picture(run, path, &estimate, milliseconds, err)) return false;
-        if (!options->quiet && options->verbose) fprintf(stderr, "%s: %.0f ms\n", path, milliseconds);
+        if (!write_picture(run, frame, &estimate, milliseconds, err)) return false;
+        if (!options->quiet && options->verbose) fprintf(stderr, "picture %d: %.0f ms\n", frame + 1, milliseconds);
     }
-    return true;
+    return ang_render_output_finish(&run->output, err);
 }
 
 static bool time_frames(session *run, ang_error *err) {
@@ -388,40 +399,30 @@ static bool check_budget(session *run, ang_error *err) {
     return true;
 }
 
-/* Outputs that would overwrite one another or what is read. */
-static bool check_outputs(const ang_options *options, ang_error *err) {
-    const char *json = options->json && strcmp(options->json, "-") != 0 ? options->json : NULL;
-    if (!ang_image_writable(options->output, err)) return false;
-    if (json && !ang_file_replaceable(json, err)) return false;
-    if (json && options->state && ang_file_same(options->state, json))
-        return ang_fail(err, ANG_USAGE, "--json %s: is read as state; give the output another name", json);
-    for (int frame = 0; frame < options->frames; frame++) {
-        char path[4096];
-        frame_path(options->output, frame, options->frames, path, sizeof path);
-        if (options->state && ang_file_same(options->state, path))
-            return ang_fail(err, ANG_USAGE, "-o %s: is read as state; give the picture another name", path);
-        if (json && ang_file_same(path, json))
-            return ang_fail(err, ANG_USAGE, "--json %s: is the picture too (-o); give one of them another name", json);
-        if (ang_load_reads(options->arguments[0], path))
-            return ang_fail(err, ANG_USAGE, "-o %s: is read as input; give the picture another name", path);
-    }
-    bool preset =
-        json && options->preset && ang_preset_is_path(options->preset) && ang_file_same(options->preset, json);
-    if (json && (preset || ang_load_reads(options->arguments[0], json)))
-        return ang_fail(err, ANG_USAGE, "--json %s: is read as %s; give the output another name", json,
-                        preset ? "preset" : "input");
-    return true;
+/* Before the volume is read: a preset that is broken is refused at once. */
+static bool open_sweep(session *run, ang_error *err) {
+    const ang_options *options = run->options;
+    if (!options->sweep) return true;
+    if (options->preset)
+        return ang_fail(err, ANG_USAGE, "--preset %s: --sweep names its presets; give one of both", options->preset);
+    if (options->frames < 2) return ang_fail(err, ANG_USAGE, "--sweep %s: needs --frames N", options->sweep);
+    if (!ang_sweep_open(&run->sweep, options->sweep, err)) return false;
+    run->picture.preset = ang_sweep_at(&run->sweep, 0, options->frames, err);
+    return run->picture.preset != NULL;
 }
 
 static bool run_all(session *run, ang_error *err) {
     const ang_options *options = run->options;
-    if (!check_outputs(options, err)) return false;
-    ang_stated_hand_preset(&run->stated, &run->picture);
+    if (!ang_render_output_check(options, err)) return false;
+    if (!open_sweep(run, err)) return false;
+    if (!options->sweep) ang_stated_hand_preset(&run->stated, &run->picture);
     if (!ang_picture_open(options, run->progress, &run->volume, &run->report, &run->picture, &run->summary.load_ms,
                           err))
         return false;
     ang_state_matches(&run->stated.state, &run->report, &run->summary.warnings);
-    if (!open_renderer(run, err) || !render_all(run, err) || !time_frames(run, err) || !check_budget(run, err))
+    if (!open_renderer(run, err) ||
+        !ang_render_output_start(&run->output, options, &run->report, &run->summary.warnings, err) ||
+        !render_all(run, err) || !time_frames(run, err) || !check_budget(run, err))
         return false;
     if (!options->json) return true;
     return ang_render_json_write(options->json, run->volume, &run->report, &run->picture, run->method, &run->summary,
@@ -433,8 +434,8 @@ int ang_app_render(const ang_options *options, ang_error *err) {
         ang_fail(err, ANG_USAGE, "render: give a picture to write with -o OUT.png");
         return ANG_USAGE;
     }
-    if (options->frames > 1 && options->orbit == 0 && !options->quiet)
-        fprintf(stderr, "note: without --orbit all %d pictures are the same\n", options->frames);
+    if (options->frames > 1 && options->orbit == 0 && !options->sweep && !options->quiet)
+        fprintf(stderr, "note: without --orbit and --sweep all %d pictures are the same\n", options->frames);
     if (options->orbit != 0 && options->frames == 1 && options->repeat == 0 && !options->quiet)
         fprintf(stderr, "note: --orbit turns nothing without --frames or --repeat\n");
     session run = {.progress = ang_app_progress_start(options->quiet)};
@@ -453,6 +454,8 @@ int ang_app_render(const ang_options *options, ang_error *err) {
     ang_image_clear(&run.image);
     ang_image_clear(&run.drawn);
     ang_kept_clear(&run.kept);
+    ang_render_output_clear(&run.output);
+    ang_sweep_clear(&run.sweep);
     free(run.counts);
     ang_picture_clear(&run.picture);
     ang_plan_clear(&run.summary.plan);

@@ -32,6 +32,7 @@ void ang_load_report_clear(ang_load_report *report) {
     }
     free(report->series);
     free(report->gaps);
+    free(report->first_file);
     ang_notes_clear(&report->assumptions);
     ang_notes_clear(&report->warnings);
     *report = (ang_load_report){0};

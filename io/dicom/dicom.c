@@ -115,6 +115,7 @@ static ang_volume *build(const ang_dicom_folder *folder, ang_dicom_group *group,
             if (volume) {
                 take_grid(&grid, first, report);
                 report->slices_read = (int)count;
+                report->first_file = strdup(folder->paths[first->file]); /* NULL: it is as if it could not be read */
                 ang_notes_append(&report->assumptions, &assumptions);
                 ang_notes_append(&report->warnings, &warnings);
             } else {
