@@ -76,8 +76,9 @@ static bool has_display(void) {
 }
 
 int main(int argc, char **argv) {
-    /* A closed pipe is an output that cannot be written, not a reason to die. */
+    /* A closed pipe or a file that may not grow is an output that cannot be written, not a reason to die. */
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
     if (argc < 2) {
         if (has_display()) return run_verb(&ang_verb_table[0], argc, argv);
         print_usage(stderr);

@@ -51,6 +51,12 @@ static void complain(FILE *complaints, ang_error *err) {
     free(text);
 }
 
+/* gnuplot does not notice where a disk is full. */
+static bool whole(const char *svg) {
+    const char *last = strrchr(svg, '<');
+    return !svg[0] || (last && strncmp(last, "</svg>", 6) == 0);
+}
+
 static bool run(FILE *script, FILE *out, FILE *complaints, char **result, ang_error *err) {
     pid_t child;
     int reason = start(script, out, complaints, &child), status = 0;
@@ -62,7 +68,11 @@ static bool run(FILE *script, FILE *out, FILE *complaints, char **result, ang_er
         return false;
     }
     *result = contents(out);
-    return *result || ang_fail(err, ANG_LIMIT, "no memory for a plot");
+    if (!*result) return ang_fail(err, ANG_LIMIT, "no memory for a plot");
+    if (whole(*result)) return true;
+    free(*result);
+    *result = NULL;
+    return ang_fail(err, ANG_OUTPUT, "a plot was not written to its end; is there space for temporary files?");
 }
 
 /* Files instead of pipes: neither side can wait for the other. */

@@ -10,9 +10,9 @@
  * missing. */
 bool ang_gnuplot_there(const char **why);
 
-/* Runs a script, which must set its terminal and write to standard output, without the user's or the system's start-up
- * files; *out is what came, a string to be freed with free(). False with ANG_OUTPUT and gnuplot's first words where it
- * fails, ANG_USAGE in a build without it, ANG_LIMIT. */
+/* Runs a script, which must set the terminal svg and write to standard output, without the user's or the system's
+ * start-up files; *out is what came, a string to be freed with free(). False with ANG_OUTPUT and gnuplot's first words
+ * where it fails or what it wrote is cut off, ANG_USAGE in a build without it, ANG_LIMIT. */
 bool ang_gnuplot_run(const char *script, char **out, ang_error *err);
 
 #endif

@@ -8,24 +8,76 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#define LEFTOVER "angioscope-" /* after a dot: what names of temporary files begin with */
+
 static bool fail(const char *path, int reason, ang_error *err) {
     char text[128];
     return ang_fail(err, ANG_OUTPUT, "%s: cannot be written (%s); choose another place or free some space", path,
                     strerror_r(reason, text, sizeof text));
 }
 
-/* O_EXCL instead of mkstemp: the file gets the permissions that the user's umask gives, not 0600. */
-static int open_temporary(const char *path, const char *ending, char *temporary, size_t size) {
+/* The length of the folder in `path`, with its final slash; 0 where it names none. */
+static int folder_length(const char *path) {
     const char *slash = strrchr(path, '/');
-    int folder = slash ? (int)(slash - path) + 1 : 0;
+    return slash ? (int)(slash - path) + 1 : 0;
+}
+
+/* The file itself, in `target` of PATH_MAX bytes, where `path` is a symbolic link or a chain of them, dangling or not:
+ * what is replaced must not be the link. False with errno. */
+static bool follow_links(const char *path, char *target) {
+    if (snprintf(target, PATH_MAX, "%s", path) >= PATH_MAX) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    for (int links = 0; links < 40; links++) {
+        char link[PATH_MAX], next[PATH_MAX];
+        ssize_t length = readlink(target, link, sizeof link - 1);
+        if (length < 0) return errno == EINVAL || errno == ENOENT; /* no link, or nothing */
+        link[length] = '\0';
+        int folder = link[0] == '/' ? 0 : folder_length(target);
+        if (snprintf(next, sizeof next, "%.*s%s", folder, target, link) >= (int)sizeof next) {
+            errno = ENAMETOOLONG;
+            return false;
+        }
+        memcpy(target, next, sizeof next);
+    }
+    errno = ELOOP;
+    return false;
+}
+
+/* Gives a new file the permissions and, as far as we may, the owner of the one that it is to replace. */
+static bool keep_permissions(int file, const char *target) {
+    struct stat old, new;
+    if (stat(target, &old) != 0) return true;
+    if (fstat(file, &new) != 0) return false;
+    mode_t mode = old.st_mode & 07777;
+    if (old.st_uid != new.st_uid && fchown(file, old.st_uid, (gid_t)-1) != 0) mode &= ~(mode_t)(S_ISUID | S_ISGID);
+    /* Another group must not read what was not for it. */
+    if (old.st_gid != new.st_gid && fchown(file, (uid_t)-1, old.st_gid) != 0)
+        mode = (mode & ~(mode_t)(S_ISGID | S_IRWXG)) | ((mode & S_IRWXO) << 3 & (mode & S_IRWXG));
+    return fchmod(file, mode) == 0;
+}
+
+/* Opens a new file beside `target`. O_EXCL instead of mkstemp: it gets the permissions that the user's umask gives, not
+ * 0600, and no two processes or threads have the same. -1 with errno. */
+static int open_temporary(const char *target, const char *ending, char *temporary, size_t size) {
     for (unsigned attempt = 0; attempt < 10000; attempt++) {
-        int length = snprintf(temporary, size, "%.*s.ang-%ld-%u.part%s", folder, path, (long)getpid(), attempt, ending);
+        int length = snprintf(temporary, size, "%.*s." LEFTOVER "%ld-%u.part%s", folder_length(target), target,
+                              (long)getpid(), attempt, ending);
         if (length < 0 || (size_t)length >= size) {
             errno = ENAMETOOLONG;
             return -1;
         }
         int file = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file >= 0 || errno != EEXIST) return file;
+        if (file < 0 && errno == EEXIST) continue;
+        if (file >= 0 && !keep_permissions(file, target)) {
+            int reason = errno;
+            close(file);
+            unlink(temporary);
+            errno = reason;
+            return -1;
+        }
+        return file;
     }
     errno = EEXIST;
     return -1;
@@ -37,10 +89,9 @@ static bool flush(int file) { return fsync(file) == 0 || errno == EINVAL || errn
 static bool write_all(int file, const unsigned char *data, size_t size) {
     while (size > 0) {
         ssize_t written = write(file, data, size);
-        if (written < 0) {
-            if (errno == EINTR) continue;
-            return false;
-        }
+        if (written < 0 && errno == EINTR) continue;
+        if (written == 0) errno = ENOSPC;
+        if (written <= 0) return false;
         data += written;
         size -= (size_t)written;
     }
@@ -49,8 +100,8 @@ static bool write_all(int file, const unsigned char *data, size_t size) {
 
 /* The folder of `path`, in `folder` of PATH_MAX bytes: with its final slash, or ".". */
 static void folder_of(const char *path, char *folder) {
-    const char *slash = strrchr(path, '/');
-    snprintf(folder, PATH_MAX, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+    int length = folder_length(path);
+    snprintf(folder, PATH_MAX, "%.*s", length ? length : 1, length ? path : ".");
 }
 
 bool ang_file_same(const char *a, const char *b) {
@@ -58,8 +109,7 @@ bool ang_file_same(const char *a, const char *b) {
     bool left_is = stat(a, &left) == 0, right_is = stat(b, &right) == 0;
     if (left_is != right_is) return false;
     if (!left_is) {
-        const char *left_slash = strrchr(a, '/'), *right_slash = strrchr(b, '/');
-        if (strcmp(left_slash ? left_slash + 1 : a, right_slash ? right_slash + 1 : b) != 0) return false;
+        if (strcmp(a + folder_length(a), b + folder_length(b)) != 0) return false;
         char left_folder[PATH_MAX], right_folder[PATH_MAX];
         folder_of(a, left_folder);
         folder_of(b, right_folder);
@@ -68,21 +118,35 @@ bool ang_file_same(const char *a, const char *b) {
     return left.st_dev == right.st_dev && left.st_ino == right.st_ino;
 }
 
-bool ang_file_replaceable(const char *path, ang_error *err) {
+bool ang_file_leftover(const char *name) {
+    size_t known = sizeof "." LEFTOVER - 1;
+    return strncmp(name, "." LEFTOVER, known) == 0 && strstr(name + known, ".part");
+}
+
+/* As ang_file_replaceable, and what `path` leads to, in `target` of PATH_MAX bytes. */
+static bool find_target(const char *path, char *target, ang_error *err) {
     struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
+    if (!follow_links(path, target)) return fail(path, errno, err);
+    bool there = stat(target, &status) == 0;
+    if (there && !S_ISREG(status.st_mode)) {
         return ang_fail(err, ANG_OUTPUT, "%s: exists and is %s; give the name of a file", path,
                         S_ISDIR(status.st_mode) ? "a folder" : "not a regular file");
     }
     char folder[PATH_MAX];
-    folder_of(path, folder);
-    return access(folder, W_OK | X_OK) == 0 || fail(path, errno, err);
+    folder_of(target, folder);
+    bool may = access(folder, W_OK | X_OK) == 0 && (!there || access(target, W_OK) == 0);
+    return may || fail(path, errno, err);
+}
+
+bool ang_file_replaceable(const char *path, ang_error *err) {
+    char target[PATH_MAX];
+    return find_target(path, target, err);
 }
 
 bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err) {
-    if (!ang_file_replaceable(path, err)) return false;
-    char temporary[PATH_MAX];
-    int file = open_temporary(path, "", temporary, sizeof temporary);
+    char target[PATH_MAX], temporary[PATH_MAX];
+    if (!find_target(path, target, err)) return false;
+    int file = open_temporary(target, "", temporary, sizeof temporary);
     if (file < 0) return fail(path, errno, err);
 
     bool good = write_all(file, data, size);
@@ -91,7 +155,7 @@ bool ang_file_replace(const char *path, const void *data, size_t size, ang_error
         good = false;
         reason = errno;
     }
-    if (good && rename(temporary, path) != 0) {
+    if (good && rename(temporary, target) != 0) {
         good = false;
         reason = errno;
     }
@@ -103,9 +167,10 @@ bool ang_file_replace(const char *path, const void *data, size_t size, ang_error
 }
 
 bool ang_file_temporary(const char *path, const char *ending, char *temporary, size_t size, ang_error *err) {
+    char target[PATH_MAX];
     temporary[0] = '\0';
-    if (!ang_file_replaceable(path, err)) return false;
-    int file = open_temporary(path, ending, temporary, size);
+    if (!find_target(path, target, err)) return false;
+    int file = open_temporary(target, ending, temporary, size);
     if (file < 0) {
         temporary[0] = '\0';
         return fail(path, errno, err);
@@ -115,13 +180,15 @@ bool ang_file_temporary(const char *path, const char *ending, char *temporary, s
 }
 
 bool ang_file_rename(const char *temporary, const char *path, ang_error *err) {
+    char target[PATH_MAX];
+    if (!find_target(path, target, err)) return false;
     int file = open(temporary, O_RDONLY | O_CLOEXEC);
     if (file < 0) return fail(path, errno, err);
     bool flushed = flush(file);
     int reason = errno;
     close(file);
     if (!flushed) return fail(path, reason, err);
-    return rename(temporary, path) == 0 || fail(path, errno, err);
+    return rename(temporary, target) == 0 || fail(path, errno, err);
 }
 
 bool ang_folder_make(const char *path, ang_error *err) {

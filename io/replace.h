@@ -4,23 +4,30 @@
 
 #include "core/base/error.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Writes `size` bytes to `path`: into a temporary file of the same folder, flushed to the disk (fsync), then renamed
- * over `path` (POSIX rename: readers see the old file or the new one). False with ANG_OUTPUT, naming `path` and the
- * system's reason; the temporary file is removed and an existing `path` left as it was. A `path` that exists and is no
- * regular file (a folder, a device) is refused. Thread safe. */
+ * over `path` (POSIX rename: readers see the old file or the new one, whatever else writes there or is killed). A
+ * symbolic link stays one and what it leads to is replaced; permissions, owner and group of an existing file stay as
+ * far as we may set them; other names of it (hard links) keep the old bytes. False with ANG_OUTPUT, naming `path` and
+ * the system's reason; the temporary file is removed and an existing `path` left as it was. A `path` that exists and is
+ * no regular file (a folder, a device) or may not be written to is refused. Thread safe. */
 bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err);
 
 /* Whether ang_file_replace could write to `path` as things stand: to be asked before long work. False with ANG_OUTPUT.
  * Thread safe. */
 bool ang_file_replaceable(const char *path, ang_error *err);
 
-/* The same for files that others write. First a temporary file of no bytes is made in the folder of `path`, its name with
- * `ending` (such as ".mp4") behind; false with ANG_OUTPUT. Once it is written, the second flushes it to the disk and
- * renames it over `path`; false with ANG_OUTPUT, and then the temporary file is the caller's to remove. */
+/* The same for files that others write. First a temporary file of no bytes is made in the folder of `path`, its name
+ * with `ending` (such as ".mp4") behind; false with ANG_OUTPUT. Once it is written, the second flushes it to the disk
+ * and renames it over `path`; false with ANG_OUTPUT, and then the temporary file is the caller's to remove. */
 bool ang_file_temporary(const char *path, const char *ending, char *temporary, size_t size, ang_error *err);
 bool ang_file_rename(const char *temporary, const char *path, ang_error *err);
+
+/* Whether a file of this name (without folder) is a temporary one of the above: left where a process was killed in the
+ * middle, and never to be read. */
+bool ang_file_leftover(const char *name);
 
 /* Whether two paths, however spelt, name one file: by device and inode, or by folder and name where there is no file
  * yet. Thread safe. */

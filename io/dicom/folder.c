@@ -5,6 +5,7 @@
 #include "io/dicom/directory.h"
 #include "io/dicom/header.h"
 #include "io/formats.h"
+#include "io/replace.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -62,6 +63,7 @@ static bool list_files(const char *path, ang_dicom_folder *folder, size_t *capac
     bool ok = true;
     for (struct dirent *entry; ok && (entry = readdir(directory));) {
         if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        if (ang_file_leftover(entry->d_name)) continue;
         char *full = NULL;
         if (asprintf(&full, "%s/%s", path, entry->d_name) < 0) full = NULL;
         struct stat status;

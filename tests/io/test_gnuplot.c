@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include "tests/io/bad_places.h"
+
 static void need_gnuplot(void) {
     const char *why = NULL;
     if (ang_gnuplot_there(&why)) return;
@@ -60,11 +62,27 @@ static void what_is_wrong_is_said_in_one_line(void **state) {
     assert_null(strchr(err.message, '\n'));
 }
 
+/* As on a full disk: gnuplot itself ends as if all were well. */
+static int plot_beyond_a_limit(const char *path) {
+    (void)path;
+    ang_error err = {0};
+    char *svg = NULL;
+    if (!limit_files(2000)) return NOT_POSSIBLE;
+    if (ang_gnuplot_run("set terminal svg\nplot sin(x)\n", &svg, &err)) return 1;
+    return svg == NULL && err.code == ANG_OUTPUT ? 0 : 2;
+}
+static void half_a_plot_is_none(void **state) {
+    (void)state;
+    need_gnuplot();
+    expect_in_child(0, plot_beyond_a_limit, NULL);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_plot_is_an_svg),
         cmocka_unit_test(long_scripts_do_not_hang),
         cmocka_unit_test(what_is_wrong_is_said_in_one_line),
+        cmocka_unit_test(half_a_plot_is_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
