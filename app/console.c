@@ -175,5 +175,6 @@ ang_load_options ang_app_load_options(const ang_options *options) {
                               .raw_type = options->raw_type,
                               .raw_spacing = options->raw_spacing,
                               .threads = options->threads,
-                              .strict = options->strict};
+                              .strict = options->strict,
+                              .no_sandbox = options->no_sandbox};
 }

@@ -156,6 +156,9 @@ static const ang_option table[] = {
                 "draw orientation letters, a millimetre bar, preset, mode, and how wrong the picture may be"),
     FLAG_OPTION("strict", 0, READS | ANG_VERB_PRESETS, strict,
                 "refuse input (exit code 4) where loading it gives a warning"),
+    FLAG_OPTION("no-sandbox", 0, READS | ANG_VERB_PRESETS, no_sandbox,
+                "decode compressed pixels in this process: a codec that fails on a damaged file may take the program "
+                "with it"),
     FLAG_OPTION("keep-phi", 0, ANG_VERB_INFO | ANG_VERB_RENDER | ANG_VERB_VIEW, keep_phi,
                 "let what may identify a patient into the output"),
     TEXT_OPTION("raw-dims", READS | ANG_VERB_PRESETS, raw_dims, "XxYxZ", NULL, "size of raw input, x fastest"),

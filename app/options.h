@@ -33,7 +33,7 @@ typedef struct ang_options {
         max_time, fps; /* NaN where not given and without default */
     int frames, repeat, threads, seed, pass_steps, quads, phase;
     bool no_termination, no_skip, count_shown, separate_passes, show_bricks, axes, explain, manual_filter, strict,
-        annotate, keep_phi, replace, quiet, verbose, help, json_flag;
+        no_sandbox, annotate, keep_phi, replace, quiet, verbose, help, json_flag;
     const char **arguments; /* what is not an option, NULL at the end */
     int argument_count;
     bool given[ANG_MOST_OPTIONS]; /* on the command line, in the order of the table */

@@ -24,6 +24,7 @@ typedef struct ang_load_options {
     int threads;             /* 0: all */
     ang_slice_sink slices;   /* is given the slices while they are read */
     bool strict;             /* any warning is an error (ANG_GEOMETRY) */
+    bool no_sandbox;         /* codecs run in this process: see io/sandbox/sandbox.h */
 } ang_load_options;
 
 /* One 3D image series or what else was found, as listed by `info`. */

@@ -6,16 +6,21 @@
 #include <limits.h>
 #include <stdio.h>
 
-/* By path, not by the program's run path, which AddressSanitizer's dlopen does not follow. */
-static void *open_module(const char *file) {
+bool ang_module_path(const char *file, char *path, size_t size) {
     static const char *const places[] = {"", "../", "../lib/angioscope/"};
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        char relative[NAME_MAX + 32], path[PATH_MAX];
+        char relative[NAME_MAX + 32];
         snprintf(relative, sizeof relative, "%s%s", places[i], file);
-        if (ang_place_beside_program(relative, path, sizeof path)) return dlopen(path, RTLD_NOW | RTLD_LOCAL);
+        if (ang_place_beside_program(relative, path, size)) return true;
     }
-    /* For the message: the plain name, which is not found. */
-    return dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    return false;
+}
+
+/* By path, not by the program's run path, which AddressSanitizer's dlopen does not follow. */
+static void *open_module(const char *file) {
+    char path[PATH_MAX];
+    /* Where it is missing by the plain name, which is not found either: for the message. */
+    return dlopen(ang_module_path(file, path, sizeof path) ? path : file, RTLD_NOW | RTLD_LOCAL);
 }
 
 /* Opening a module again only finds it again, so that no handle need be kept. */

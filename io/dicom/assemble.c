@@ -64,7 +64,8 @@ static void decode_slices(void *context, size_t begin, size_t end, int worker) {
         const ang_dicom_slice *slice = &stack->slices[stack->order[i]];
         uint16_t *data = job->volume->data + i * plane;
         ang_error why = {0};
-        if (!ang_dicom_decode(stack->paths[slice->file], stack->labels[slice->file], slice, data, &why)) {
+        if (!ang_dicom_decode(stack->paths[slice->file], stack->labels[slice->file], slice, stack->sandbox, data,
+                              &why)) {
             job->failed[i] = true;
             job->reasons[i] = strdup(why.message);
             atomic_store(&job->any_failed, true);

@@ -5,6 +5,7 @@
 #include "core/base/progress.h"
 #include "core/volume/raw_slice.h"
 #include "io/dicom/geometry.h"
+#include "io/sandbox/sandbox.h"
 
 /* What ang_dicom_assemble works on; all borrowed. */
 typedef struct ang_dicom_stack {
@@ -16,6 +17,7 @@ typedef struct ang_dicom_stack {
     const ang_dicom_grid *grid;
     int threads;
     ang_slice_sink sink;
+    ang_sandbox *sandbox; /* for codecs; NULL: in this process */
 } ang_dicom_stack;
 
 /* The volume of `stack`, with the padding, rescale and checksum fields of `report` filled in. Where files cannot be

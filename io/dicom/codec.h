@@ -22,10 +22,11 @@ typedef struct ang_codec_frame {
 bool ang_codec_decode(const uint8_t *stream, size_t length, const ang_codec_frame *frame, void *pixels, size_t size,
                       ang_error *err);
 
-/* GDCM lies in a module of its own (angioscope-gdcm.so), opened at the first call: its dictionaries take 20 ms to set
- * up. It exports under the name ANG_GDCM_DECODE a pointer to a function like ang_codec_decode. */
+/* GDCM lies in a module of its own, opened at the first call: its dictionaries take 20 ms to set up. It exports under
+ * the name ANG_GDCM_DECODE a pointer to a function like ang_codec_decode. */
 typedef bool ang_codec_function(const uint8_t *stream, size_t length, const ang_codec_frame *frame, void *pixels,
                                 size_t size, ang_error *err);
+#define ANG_GDCM_MODULE "angioscope-gdcm.so"
 #define ANG_GDCM_DECODE "ang_gdcm_decode"
 
 #endif

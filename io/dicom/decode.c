@@ -108,8 +108,8 @@ static bool decode_rle(const uint8_t *stream, size_t length, const ang_dicom_sli
     return ok;
 }
 
-static bool decode_stream(const uint8_t *stream, size_t length, const ang_dicom_slice *slice, uint16_t *out,
-                          const char *label, ang_error *err) {
+static bool decode_stream(const uint8_t *stream, size_t length, const ang_dicom_slice *slice, ang_sandbox *sandbox,
+                          uint16_t *out, const char *label, ang_error *err) {
 #ifdef ANG_WITH_GDCM
     ang_dicom_stream header;
     if (!ang_dicom_stream_header(stream, length, &header))
@@ -135,7 +135,8 @@ static bool decode_stream(const uint8_t *stream, size_t length, const ang_dicom_
     void *raw = words.bytes == 2 ? out : ang_alloc(count, 1, "a slice", err);
     if (!raw) return false;
     ang_error why = {0};
-    bool ok = ang_codec_decode(stream, length, &frame, raw, size, &why);
+    bool ok = sandbox ? ang_sandbox_decode(sandbox, stream, length, &frame, raw, size, &why)
+                      : ang_codec_decode(stream, length, &frame, raw, size, &why);
     if (ok)
         ang_dicom_convert(raw, count, words, out);
     else
@@ -143,7 +144,7 @@ static bool decode_stream(const uint8_t *stream, size_t length, const ang_dicom_
     if (raw != out) free(raw);
     return ok;
 #else
-    (void)stream, (void)length, (void)out;
+    (void)stream, (void)length, (void)sandbox, (void)out;
     return ang_fail(err, ANG_INPUT, "%s: compressed pixels (transfer syntax %s): this build has no GDCM to decode them",
                     label, slice->transfer_syntax);
 #endif
@@ -179,8 +180,8 @@ static bool decode_deflated(const char *path, const ang_dicom_slice *slice, uint
     return ok;
 }
 
-bool ang_dicom_decode(const char *path, const char *label, const ang_dicom_slice *slice, uint16_t *out,
-                      ang_error *err) {
+bool ang_dicom_decode(const char *path, const char *label, const ang_dicom_slice *slice, ang_sandbox *sandbox,
+                      uint16_t *out, ang_error *err) {
     if (slice->coding == ANG_DICOM_DEFLATED) return decode_deflated(path, slice, out, label, err);
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0) return ang_fail(err, ANG_INPUT, "%s: %s", label, strerror(errno));
@@ -192,8 +193,9 @@ bool ang_dicom_decode(const char *path, const char *label, const ang_dicom_slice
         size_t length = 0;
         uint64_t size = fstat(fd, &status) == 0 ? (uint64_t)status.st_size : 0;
         uint8_t *stream = read_fragments(fd, slice, size, &length, label, err);
-        ok = stream && (slice->coding == ANG_DICOM_RLE ? decode_rle(stream, length, slice, out, label, err)
-                                                       : decode_stream(stream, length, slice, out, label, err));
+        ok =
+            stream && (slice->coding == ANG_DICOM_RLE ? decode_rle(stream, length, slice, out, label, err)
+                                                      : decode_stream(stream, length, slice, sandbox, out, label, err));
         free(stream);
     }
     close(fd);

@@ -96,8 +96,9 @@ static bool leave_out_failed(const ang_dicom_folder *folder, ang_dicom_group *gr
 }
 
 /* Geometry and voxels; where slices cannot be decoded, again without them, so that they count as missing. */
-static ang_volume *build(const ang_dicom_folder *folder, ang_dicom_group *group, const ang_load_options *options,
+static ang_volume *build(const ang_dicom_listing *listing, ang_dicom_group *group, const ang_load_options *options,
                          ang_load_report *report, const ang_progress *progress, ang_error *err) {
+    const ang_dicom_folder *folder = &listing->folder;
     ang_volume *volume = NULL;
     ang_dicom_sort(folder->slices, group->order, group->count, &report->assumptions);
     for (bool again = true; again;) {
@@ -109,8 +110,8 @@ static ang_volume *build(const ang_dicom_folder *folder, ang_dicom_group *group,
         bool *failed = ang_alloc(count, sizeof *failed, "slices", err);
         char **reasons = failed ? ang_alloc(count, sizeof *reasons, "slices", err) : NULL;
         if (reasons && ang_dicom_geometry(folder->slices, group->order, count, &grid, &assumptions, &warnings, err)) {
-            ang_dicom_stack stack = {folder->slices, group->order,     count,          folder->paths, folder->labels,
-                                     &grid,          options->threads, options->slices};
+            ang_dicom_stack stack = {folder->slices, group->order,     count,           folder->paths,   folder->labels,
+                                     &grid,          options->threads, options->slices, listing->sandbox};
             volume = ang_dicom_assemble(&stack, report, progress, failed, reasons, err);
             if (volume) {
                 take_grid(&grid, first, report);
@@ -182,7 +183,9 @@ static ang_volume *load_chosen(ang_dicom_listing *listing, size_t chosen, const 
     report->slices_duplicate = group->duplicates;
     note_choice(listing, chosen, options, report);
     ang_dicom_note_values(slices, group, &report->assumptions, &report->warnings);
-    ang_volume *volume = build(&listing->folder, group, options, report, progress, err);
+    ang_volume *volume = build(listing, group, options, report, progress, err);
+    const char *remark = listing->sandbox ? ang_sandbox_remark(listing->sandbox) : NULL;
+    if (remark) ang_notes_add(&report->assumptions, "%s", remark);
     if (!volume) return NULL;
     note_result(volume, first, report);
     ang_series_info *info = &report->series[report->chosen];

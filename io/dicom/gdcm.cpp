@@ -7,13 +7,16 @@ extern "C" {
 #include <gdcmDataElement.h>
 #include <gdcmFragment.h>
 #include <gdcmImage.h>
+#include <gdcmJPEG2000Codec.h>
 #include <gdcmJPEGCodec.h>
+#include <gdcmJPEGLSCodec.h>
 #include <gdcmSequenceOfFragments.h>
 #include <gdcmTrace.h>
 
 #include <cstring>
 #include <exception>
 #include <mutex>
+#include <new>
 
 namespace {
 
@@ -23,22 +26,6 @@ class precise_jpeg : public gdcm::JPEGCodec {
   public:
     void set_precision(int bits) { SetBitSample(bits <= 8 ? 8 : bits <= 12 ? 12 : 16); }
 };
-
-bool decode_jpeg(const gdcm::DataElement &element, const gdcm::Image &image, int bits, void *pixels, size_t size) {
-    precise_jpeg codec;
-    codec.SetNumberOfDimensions(2);
-    codec.SetDimensions(image.GetDimensions());
-    codec.SetPlanarConfiguration(0);
-    codec.SetPhotometricInterpretation(image.GetPhotometricInterpretation());
-    codec.SetPixelFormat(image.GetPixelFormat());
-    codec.set_precision(bits);
-    gdcm::DataElement out;
-    if (!codec.Decode(element, out)) return false;
-    const gdcm::ByteValue *value = out.GetByteValue();
-    if (!value || static_cast<size_t>(value->GetLength()) < size) return false;
-    std::memcpy(pixels, value->GetPointer(), size);
-    return true;
-}
 
 bool is_jpeg(gdcm::TransferSyntax::TSType type) {
     switch (type) {
@@ -53,6 +40,39 @@ bool is_jpeg(gdcm::TransferSyntax::TSType type) {
     default:
         return false;
     }
+}
+
+bool decode_with(gdcm::ImageCodec &codec, const gdcm::DataElement &element, const gdcm::Image &image, void *pixels,
+                 size_t size) {
+    codec.SetNumberOfDimensions(2);
+    codec.SetDimensions(image.GetDimensions());
+    codec.SetPlanarConfiguration(0);
+    codec.SetPhotometricInterpretation(image.GetPhotometricInterpretation());
+    codec.SetPixelFormat(image.GetPixelFormat());
+    gdcm::DataElement out;
+    if (!codec.Decode(element, out)) return false;
+    const gdcm::ByteValue *value = out.GetByteValue();
+    if (!value || static_cast<size_t>(value->GetLength()) < size) return false;
+    std::memcpy(pixels, value->GetPointer(), size);
+    return true;
+}
+
+/* The codec is chosen here: GDCM would try one after the other. */
+bool decode_as(gdcm::TransferSyntax::TSType type, const gdcm::DataElement &element, const gdcm::Image &image, int bits,
+               void *pixels, size_t size) {
+    if (is_jpeg(type)) {
+        precise_jpeg codec;
+        codec.set_precision(bits);
+        return decode_with(codec, element, image, pixels, size);
+    }
+    if (type == gdcm::TransferSyntax::JPEGLSLossless || type == gdcm::TransferSyntax::JPEGLSNearLossless) {
+        gdcm::JPEGLSCodec codec;
+        return decode_with(codec, element, image, pixels, size);
+    }
+    /* Frames are decoded side by side: threads within one, GDCM's default, would be in each other's way. */
+    gdcm::JPEG2000Codec codec;
+    codec.SetNumberOfThreadsForDecompression(0);
+    return codec.CanDecode(type) && decode_with(codec, element, image, pixels, size);
 }
 
 } // namespace
@@ -90,9 +110,7 @@ static bool decode(const uint8_t *stream, size_t length, const ang_codec_frame *
     image.SetDataElement(element);
     if (image.GetBufferLength() != size)
         return ang_fail(err, ANG_INPUT, "the decoder would give %lu bytes, not %zu", image.GetBufferLength(), size);
-    bool ok = is_jpeg(type) ? decode_jpeg(element, image, frame->bits, pixels, size)
-                            : image.GetBuffer(static_cast<char *>(pixels));
-    if (!ok)
+    if (!decode_as(type, element, image, frame->bits, pixels, size))
         return ang_fail(err, ANG_INPUT, "its pixels cannot be decoded (transfer syntax %s)", frame->transfer_syntax);
     return true;
 }
@@ -101,6 +119,8 @@ static bool decode_safely(const uint8_t *stream, size_t length, const ang_codec_
                           ang_error *err) {
     try {
         return decode(stream, length, frame, pixels, size, err);
+    } catch (const std::bad_alloc &) {
+        return ang_fail(err, ANG_LIMIT, "decoding its pixels takes more memory than there is for it");
     } catch (const std::exception &) {
         return ang_fail(err, ANG_INPUT, "its pixels cannot be decoded (transfer syntax %s)", frame->transfer_syntax);
     }

@@ -19,6 +19,7 @@ typedef struct digest {
 
 typedef struct comparison {
     const ang_dicom_folder *folder;
+    ang_sandbox *sandbox;
     ang_notes *warnings;
     digest *digests; /* per slice */
     const ang_progress *progress;
@@ -31,7 +32,7 @@ static bool read_pixels(comparison *comparison, size_t index, uint16_t *pixels, 
     const char *label = folder->labels[slice->file];
     digest *digest = &comparison->digests[index];
     ang_error why = {0};
-    digest->readable = ang_dicom_decode(folder->paths[slice->file], label, slice, pixels, &why);
+    digest->readable = ang_dicom_decode(folder->paths[slice->file], label, slice, comparison->sandbox, pixels, &why);
     if (!digest->readable && why.code == ANG_LIMIT) return ang_fail(err, ANG_LIMIT, "%s", why.message);
     if (!digest->readable) ang_dicom_warn_file(comparison->warnings, label, why.message);
     size_t bytes = (size_t)slice->rows * (size_t)slice->columns * sizeof *pixels;
@@ -153,14 +154,16 @@ bool ang_dicom_list(const char *const *paths, size_t count, const ang_load_optio
     snprintf(report->format, sizeof report->format, "DICOM");
     ang_dicom_folder *folder = &listing->folder;
     if (!ang_dicom_read_folder(paths, count, options->threads, folder, &report->warnings, progress, err)) return false;
-    bool ok = folder->slice_count > 0 || fail_empty(folder, paths[0], err);
+    if (!options->no_sandbox) listing->sandbox = ang_sandbox_create(err);
+    bool ok = options->no_sandbox || listing->sandbox;
+    ok = ok && (folder->slice_count > 0 || fail_empty(folder, paths[0], err));
     if (ok && folder->indexed > 0)
         ang_notes_add(&report->assumptions, "the DICOMDIR names %zu file%s: others beside it are passed over",
                       folder->indexed, ang_plural((long long)folder->indexed));
     if (ok && folder->foreign > 0)
         ang_notes_add(&report->assumptions, "passed over what is no DICOM image: %zu of %zu files", folder->foreign,
                       folder->count);
-    comparison comparison = {folder, &report->warnings, NULL, progress};
+    comparison comparison = {folder, listing->sandbox, &report->warnings, NULL, progress};
     if (ok) comparison.digests = ang_alloc(folder->slice_count, sizeof *comparison.digests, "list of slices", err);
     ok = ok && comparison.digests &&
          ang_dicom_group_slices(folder->slices, folder->slice_count, compare_pixels, &comparison, &listing->groups,
@@ -174,4 +177,6 @@ bool ang_dicom_list(const char *const *paths, size_t count, const ang_load_optio
 void ang_dicom_listing_clear(ang_dicom_listing *listing) {
     ang_dicom_groups_clear(&listing->groups);
     ang_dicom_folder_clear(&listing->folder);
+    ang_sandbox_free(listing->sandbox);
+    listing->sandbox = NULL;
 }

@@ -5,11 +5,13 @@
 #include "io/dicom/folder.h"
 #include "io/dicom/series.h"
 #include "io/load.h"
+#include "io/sandbox/sandbox.h"
 
 /* Owns everything; free with ang_dicom_listing_clear. */
 typedef struct ang_dicom_listing {
     ang_dicom_folder folder;
     ang_dicom_groups groups;
+    ang_sandbox *sandbox; /* for what is decoded of them; NULL with options->no_sandbox */
 } ang_dicom_listing;
 
 /* Reads the headers of all files at and below the paths, groups them and describes the groups in report->series. Files

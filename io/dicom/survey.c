@@ -9,14 +9,15 @@
 #include <stdlib.h>
 
 /* The middle slice of a group in `values` (to be freed), which is NULL where it cannot be read. */
-static ang_raw_slice read_middle(const ang_dicom_folder *folder, const ang_dicom_group *group, uint16_t **values) {
+static ang_raw_slice read_middle(const ang_dicom_listing *listing, const ang_dicom_group *group, uint16_t **values) {
+    const ang_dicom_folder *folder = &listing->folder;
     const ang_dicom_slice *slice = &folder->slices[group->order[group->count / 2]];
     size_t pixels = slice->rows > 0 && slice->columns > 0 ? (size_t)slice->rows * (size_t)slice->columns : 0;
     bool readable = slice->image && !slice->refusal[0] && pixels > 0;
     *values = readable ? ang_alloc(pixels, sizeof **values, "a slice", NULL) : NULL;
     const char *path = folder->paths[slice->file], *label = folder->labels[slice->file];
     ang_error unread = {0};
-    if (*values && !ang_dicom_decode(path, label, slice, *values, &unread)) {
+    if (*values && !ang_dicom_decode(path, label, slice, listing->sandbox, *values, &unread)) {
         free(*values);
         *values = NULL;
     }
@@ -38,7 +39,7 @@ static void look_at(const ang_dicom_listing *listing, size_t index, const ang_su
         ang_dicom_grid_clear(&grid);
     }
     uint16_t *values;
-    ang_raw_slice middle = read_middle(&listing->folder, group, &values);
+    ang_raw_slice middle = read_middle(listing, group, &values);
     sink->looked_at(sink->context, index, values ? &middle : NULL, &warnings, refusal);
     free(values);
     ang_notes_clear(&assumptions);

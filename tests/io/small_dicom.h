@@ -38,6 +38,18 @@ static inline void put_word(dicom_file *f, uint16_t group, uint16_t element, int
     put(f, group, element, "US", bytes, 2);
 }
 
+/* PixelData of one fragment behind an empty offset table (PS3.5 A.4). */
+static inline void put_stream(dicom_file *f, const uint8_t *stream, size_t length) {
+    uint8_t head[28] = {0xE0, 0x7F, 0x10, 0, 'O', 'B', 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0xFE, 0xFF, 0, 0xE0, 0, 0, 0, 0};
+    static const uint8_t item[4] = {0xFE, 0xFF, 0, 0xE0}, end[8] = {0xFE, 0xFF, 0xDD, 0xE0};
+    memcpy(head + 20, item, sizeof item);
+    for (int i = 0; i < 4; i++) head[24 + i] = (uint8_t)(length >> 8 * i);
+    memcpy(f->bytes + f->size, head, sizeof head);
+    memcpy(f->bytes + f->size + sizeof head, stream, length);
+    memcpy(f->bytes + f->size + sizeof head + length, end, sizeof end);
+    f->size += sizeof head + length + sizeof end;
+}
+
 enum { width = 5, height = 3 };
 
 /* What small() writes; zero means the usual. */
@@ -49,6 +61,9 @@ typedef struct form {
     bool no_rows, is_signed, has_padding, cut, no_position, no_orientation;
     bool damaged; /* the header is sound, the (compressed) pixels are not */
     bool no_image;
+    const char *transfer_syntax; /* of `stream` */
+    const uint8_t *stream;       /* compressed pixels; NULL: `pixels` as they are */
+    size_t stream_length;        /* even */
     int padding;
     const char *trigger_time, *patient_id, *series_uid, *padding_vr;
     int temporal_position;                  /* 0: none */
@@ -69,7 +84,10 @@ static inline void small(const char *name, const form *form) {
     dicom_file f = {.size = 132};
     memcpy(f.bytes + 128, "DICM", 4);
     char text[64];
-    put_text(&f, 2, 0x10, "UI", form->damaged ? "1.2.840.10008.1.2.5" : "1.2.840.10008.1.2.1");
+    put_text(&f, 2, 0x10, "UI",
+             form->damaged  ? "1.2.840.10008.1.2.5"
+             : form->stream ? form->transfer_syntax
+                            : "1.2.840.10008.1.2.1");
     if (form->character_set) put_text(&f, 8, 0x05, "CS", form->character_set);
     put_text(&f, 8, 0x08, "CS", form->image_type ? form->image_type : "ORIGINAL\\PRIMARY\\AXIAL");
     put_text(&f, 8, 0x16, "UI", form->sop_class ? form->sop_class : "1.2.840.10008.5.1.4.1.1.2");
@@ -119,6 +137,8 @@ static inline void small(const char *name, const form *form) {
                                           9,    9,    9,    0xFE, 0xFF, 0xDD, 0xE0, 0, 0,    0,    0};
         memcpy(f.bytes + f.size, damaged, sizeof damaged);
         f.size += sizeof damaged;
+    } else if (form->stream) {
+        put_stream(&f, form->stream, form->stream_length);
     } else {
         put(&f, 0x7FE0, 0x10, "OW", pixels, 2 * (size_t)columns * (size_t)rows);
     }
