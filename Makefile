@@ -6,7 +6,7 @@ PACKAGES := build-essential cmake ninja-build pkg-config python3 python3-glad zl
 DEMO := demo
 PREFIX := /usr/local
 
-.PHONY: all packages build demo test install package sanitize lint format clean
+.PHONY: all packages build demo test install package sanitize fuzz lint format clean
 
 all: build
 
@@ -39,6 +39,11 @@ sanitize: packages
 	@cmake --build --preset sanitize
 	@ctest --test-dir build-sanitize --output-on-failure --no-tests=error
 
+# SECONDS of each fuzz target; TARGETS: only these.
+SECONDS := 10
+fuzz: packages
+	@sh tests/fuzz/run.sh . $(SECONDS) $(TARGETS)
+
 lint: build
 	@git ls-files 'app/*.c' 'core/*.c' 'io/*.c' 'ui/*.c' 'core/*.cpp' 'io/*.cpp' 'ui/*.cpp' | xargs clang-tidy -p build --quiet
 
@@ -46,4 +51,4 @@ format:
 	@git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i
 
 clean:
-	@rm -rf build build-sanitize build-minimal $(DEMO)
+	@rm -rf build build-sanitize build-minimal build-fuzz $(DEMO)

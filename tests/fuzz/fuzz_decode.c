@@ -1,11 +1,14 @@
 /* Compressed pixels of one slice through fragments and codecs. The first byte chooses the transfer syntax, the next two
- * the columns and rows, the fourth the bits; the rest is the value of PixelData behind an empty offset table. */
+ * the columns and rows, the fourth the bits; the rest are the fragments of PixelData behind an empty offset table. */
 #include "io/dicom/decode.h"
 #include "io/dicom/header.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* Where codecs run: codec_sandbox.c or codec_direct.c. */
+ang_sandbox *fuzz_sandbox(void);
 
 typedef struct file {
     uint8_t *bytes;
@@ -25,12 +28,11 @@ static void put_word(file *f, int element, int value) {
     put(f, 0x28, element, "US", bytes, sizeof bytes);
 }
 
-static void put_pixels(file *f, const uint8_t *stream, size_t length) {
-    uint8_t head[28] = {0xE0, 0x7F, 0x10, 0,    'O', 'B', 0, 0, 0xFF, 0xFF, 0xFF, 0xFF,
-                        0xFE, 0xFF, 0,    0xE0, 0,   0,   0, 0, 0xFE, 0xFF, 0,    0xE0};
-    for (int i = 0; i < 4; i++) head[24 + i] = (uint8_t)(length >> 8 * i);
+static void put_pixels(file *f, const uint8_t *fragments, size_t length) {
+    static const uint8_t head[20] = {0xE0, 0x7F, 0x10, 0,    'O', 'B',  0, 0, 0xFF, 0xFF,
+                                     0xFF, 0xFF, 0xFE, 0xFF, 0,   0xE0, 0, 0, 0,    0};
     memcpy(f->bytes + f->size, head, sizeof head);
-    memcpy(f->bytes + f->size + sizeof head, stream, length);
+    memcpy(f->bytes + f->size + sizeof head, fragments, length);
     f->size += sizeof head + length;
 }
 
@@ -60,10 +62,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     ang_error err = {0};
     const char *path = fuzz_file("a.dcm", f.bytes, f.size);
     free(f.bytes);
-    if (ang_dicom_header(path, "a.dcm", &reader, &slice, &err) != ANG_DICOM_FOUND || slice.refusal[0]) return 0;
+    ang_dicom_slice *frames = NULL;
+    ang_dicom_found found = ang_dicom_header(path, "a.dcm", &reader, &slice, &frames, &err);
+    ang_dicom_close(&reader);
+    fuzz_expect(!frames, "frames of one picture");
+    if (found != ANG_DICOM_FOUND || slice.refusal[0]) return 0;
     uint16_t *out = malloc((size_t)slice.rows * (size_t)slice.columns * sizeof *out);
     fuzz_expect(out != NULL, "no memory");
-    bool ok = ang_dicom_decode(path, "a.dcm", &slice, NULL, out, &err);
+    bool ok = ang_dicom_decode(path, "a.dcm", &slice, fuzz_sandbox(), out, &err);
     fuzz_expect(ok || err.message[0], "refused without a reason");
     free(out);
     return 0;

@@ -18,7 +18,7 @@ mkdir -p $build/corpus/streams $build/failures $build/logs
 $build/tests/fuzz/streams $build/corpus/streams
 python3 tests/fuzz/seeds.py . $build/corpus
 
-# One target; codecs are fuzzed in a process each, since what is wrong in them must not end the search.
+# One target.
 cat >$build/one.sh <<'END'
 target=$1
 seconds=$2

@@ -97,6 +97,38 @@ headers = {
     "signed": dicom(changes={(0x28, 0x103): ("US", b"\1\0"), (0x28, 0x120): ("SS", struct.pack("<h", -2000))}),
     "frames": dicom(changes={(0x28, 0x08): ("IS", "3")}), "no-image": dicom(changes={(0x28, 0x10): None, (0x28, 0x11): None}),
 }
+
+
+def sequence(group, number, items):
+    data = b"".join(item(i) for i in items)
+    return struct.pack("<HH2sHI", group, number, b"SQ", 0, len(data)) + data
+
+
+def enhanced(count, compressed=False):
+    """Frames with functional groups, the last first."""
+    frames = []
+    for i in reversed(range(count)):
+        frames.append(sequence(0x20, 0x9111, [element(0x20, 0x9056, "SH", "1") + element(0x20, 0x9057, "UL", struct.pack("<I", i + 1))]) +
+                      sequence(0x20, 0x9113, [element(0x20, 0x32, "DS", f"0\\0\\{i}")]))
+    shared = (sequence(0x20, 0x9116, [element(0x20, 0x37, "DS", "1\\0\\0\\0\\1\\0")]) +
+              sequence(0x28, 0x9110, [element(0x18, 0x50, "DS", "1") + element(0x28, 0x30, "DS", "1\\1")]) +
+              sequence(0x28, 0x9145, [element(0x28, 0x1052, "DS", "-1024") + element(0x28, 0x1053, "DS", "1") + element(0x28, 0x1054, "LO", "HU")]))
+    changes = {(0x08, 0x16): ("UI", "1.2.840.10008.5.1.4.1.1.2.1"), (0x28, 0x08): ("IS", str(count)), (0x20, 0x32): None,
+               (0x20, 0x37): None, (0x28, 0x30): None, (0x28, 0x1052): None, (0x28, 0x1053): None}
+    groups = sequence(0x5200, 0x9229, [shared]) + sequence(0x5200, 0x9230, frames)
+    if compressed:
+        run = run_lengths()
+        table = item(struct.pack(f"<{count}I", *(i * (8 + len(run)) for i in range(count))))
+        pixels = table + item(run) * count + END
+        data = dicom(syntax="1.2.840.10008.1.2.5", changes=changes, pixels=pixels)
+    else:
+        data = dicom(changes={**changes, (0x7FE0, 0x10): ("OW", bytes(i % 16 for i in range(24 * count)))}, pixels=b"")[:-12]
+    at = data.index(struct.pack("<HH", 0x7FE0, 0x10))
+    return data[:at] + groups + data[at:]
+
+
+headers["enhanced"] = enhanced(3)
+headers["enhanced-rle"] = enhanced(3, True)
 for name, data in headers.items():
     save("fuzz_dicom_header", name, data)
 
@@ -117,6 +149,8 @@ series = {
     "phases": [dicom(z % 2, changes={(0x20, 0x100): ("IS", str(z // 2))}) for z in range(4)],
     "monochrome1": [dicom(z, changes={(0x28, 0x04): ("CS", "MONOCHROME1")}) for z in range(2)],
 }
+series["enhanced"] = [enhanced(4)]
+series["enhanced-rle"] = [enhanced(2, True), enhanced(3)]
 for name, files in series.items():
     save("fuzz_dicom_series", name, joined(files))
 save("fuzz_dicom_stream", "rle", bytes([12, 1]) + run_lengths())
@@ -127,6 +161,21 @@ for path in sorted((corpus / "streams").glob("*")):
     endings = ["5", "4.50", "4.51", "4.53", "4.55", "4.57", "4.70", "4.80", "4.81", "4.90", "4.91", "4.92"]
     start = bytes([endings.index(kind), 16, 16, int(bits) - 1])
     save("fuzz_decode", path.name, start + item(path.read_bytes()) + END)
+
+
+# DICOMDIR (PS3.3 annex F).
+def directory(names):
+    records = b"".join(item(element(0x04, 0x1400, "UL", b"\0" * 4) + element(0x04, 0x1410, "US", b"\xff\xff") +
+                            element(0x04, 0x1430, "CS", "IMAGE") + element(0x04, 0x1500, "CS", name)) for name in names)
+    data = element(0x04, 0x1130, "CS", "DISC") + element(0x04, 0x1200, "UL", b"\0" * 4) + element(0x04, 0x1212, "US", b"\0\0")
+    data += struct.pack("<HH2sHI", 0x04, 0x1220, b"SQ", 0, len(records)) + records
+    head = element(0x02, 0x02, "UI", "1.2.840.10008.1.3.10") + element(0x02, 0x10, "UI", "1.2.840.10008.1.2.1")
+    return b"\0" * 128 + b"DICM" + head + data
+
+
+save("fuzz_dicom_directory", "two", directory(["IM1", "IM2"]))
+save("fuzz_dicom_directory", "away", directory(["..\\IM1", "A\\B\\IM2", "IM3"]))
+save("fuzz_dicom_directory", "empty", directory([]))
 
 
 # NIfTI-1 (nifti1.h).
@@ -166,7 +215,7 @@ state = {
     "measures": {"hidden": False, "list": [
         {"kind": "length", "points_mm": [[0, 0, 0], [1, 2, 3]], "label_mm": [1, 2]},
         {"kind": "angle", "points_mm": [[0, 0, 0], [1, 2, 3], [4, 4, 4]], "label_mm": [1, 2]},
-        {"kind": "region", "points_mm": [[0, 0, 0], [1, 2, 3]], "right": [1, 0, 0], "down": [0, 1, 0], "label_mm": [0, 0]}]},
+        {"kind": "ellipse", "points_mm": [[0, 0, 0], [1, 2, 3]], "right": [1, 0, 0], "down": [0, 1, 0], "label_mm": [0, 0]}]},
     "maximised": "axial", "tool": "window", "method": "auto", "corner_text": True, "live": {"x": 1},
 }
 save("fuzz_state", "whole", json.dumps(state, indent=1))
@@ -179,6 +228,22 @@ preferences = {
     "corner_text": False, "crosshair": True, "recent": ["/data/a", "/data/b"],
 }
 save("fuzz_preferences", "whole", json.dumps(preferences))
+
+# Volume properties of 3D Slicer.
+opacity, colour = "6 -100 0 50 0.25 3000 1", "12 -100 0 0 0 50 1 0.5 0 3000 1 1 1"
+save("fuzz_slicer", "vp", f"\0001\n1\n0.9\n0.1\n0.2\n10\n{opacity}\n4 0 1 255 1\n{colour}\n")
+save("fuzz_slicer", "xml", "\1<?xml version='1.0'?>\n<MRML><!-- x -->\n<VolumeProperty name=\"CT-&quot;A\" id=\"1\" interpolation='1' "
+     f"shade='1' diffuse='0.9' ambient='0.1' specular='0.2' specularPower='10' scalarOpacity='{opacity}' gradientOpacity='4 0 1 255 1' "
+     f"colorTransfer='{colour}'/></MRML>")
+curve = [{"x": -100, "y": 0, "midpoint": 0.5, "sharpness": 0}, {"x": 300, "y": 0.4, "midpoint": 0.3, "sharpness": 0.7}]
+save("fuzz_slicer", "json", "\2" + json.dumps({"@schema": "volume-property-schema-v1.0.0.json#", "volumeProperties": [{
+    "effectiveRange": [-100, 300], "isoSurfaceValues": [120], "components": [{
+        "componentWeight": 1, "shade": True, "lighting": {"diffuse": 0.9, "ambient": 0.1, "specular": 0.2, "specularPower": 10},
+        "disableGradientOpacity": False, "scalarOpacityUnitDistance": 2, "interpolationType": "linear",
+        "scalarOpacity": {"type": "piecewiseLinearFunction", "points": curve},
+        "gradientOpacity": {"type": "piecewiseLinearFunction", "points": curve},
+        "rgbTransferFunction": {"type": "colorTransferFunction", "points": [
+            {"x": -100, "color": [0, 0, 0], "midpoint": 0.5, "sharpness": 0}, {"x": 300, "color": [1, 0.5, 0], "midpoint": 0.5, "sharpness": 0}]}}]}]}))
 
 # The rest.
 save("fuzz_portable", "ppm", b"P6\n# made up\n3 2\n255\n" + bytes(range(18)))
