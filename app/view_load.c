@@ -56,13 +56,16 @@ bool ang_view_load(const ang_load_options *how, bool keep_phi, const ang_source 
     snprintf(number, sizeof number, "%d", source->series);
     if (source->series > 0) options.series = number;
     options.slices = *slices;
+    options.series_choice = "File > Series (key F3)";
     *study = (ang_study){0};
     ang_load_report *report = calloc(1, sizeof *report);
     if (!report) return ang_fail(err, ANG_LIMIT, "no memory for a report");
     study->handle = report;
     study->volume = ang_load_all((const char *const *)source->paths, source->count, &options, report, progress, err);
     if (!study->volume) {
+        int found = (int)report->series_count;
         ang_view_release(study);
+        study->series_count = found;
         return false;
     }
     study->hounsfield = ang_load_report_hounsfield(report);
@@ -93,7 +96,7 @@ static void describe(const ang_series_info *info, ang_series_entry *entry) {
     snprintf(entry->date, sizeof entry->date, "%s", info->date);
     snprintf(entry->description, sizeof entry->description, "%.90s", info->description ? info->description : "");
     ang_text_clean(entry->description);
-    snprintf(entry->remark, sizeof entry->remark, "%.150s", info->remark ? info->remark : "");
+    snprintf(entry->remark, sizeof entry->remark, "%.390s", info->remark ? info->remark : "");
 }
 
 static void listed(void *context, const ang_load_report *report) {
@@ -112,7 +115,7 @@ static void looked_at(void *context, size_t index, const ang_raw_slice *middle, 
     entry->warnings = (int)warnings->count;
     if (refusal) {
         entry->loadable = false;
-        snprintf(entry->remark, sizeof entry->remark, "%.150s", refusal);
+        snprintf(entry->remark, sizeof entry->remark, "%.390s", refusal);
     }
     if (middle) ang_series_entry_picture(entry, middle);
     survey->sink->looked_at(survey->sink->context, index, entry);

@@ -16,7 +16,8 @@ typedef struct ang_load_options {
     /* --series: a number as listed (1, 2, ...) or the end of a SeriesInstanceUID; NULL: largest CT. Formats that hold
      * one volume have series 1. */
     const char *series;
-    int phase; /* --phase: 1, 2, ... of a series of several phases; 0: the first */
+    const char *series_choice; /* what picks another series, for a sentence of the report; NULL: "--series" */
+    int phase;                 /* --phase: 1, 2, ... of a series of several phases; 0: the first */
     /* Refused with ANG_USAGE where the input is not raw. */
     const char *raw_dims;    /* --raw-dims "XxYxZ"; NULL: a JSON sidecar beside the file (NAME.json) must say it */
     const char *raw_type;    /* --raw-type u8 | i8 | u16 | i16 | f32, little endian */

@@ -43,6 +43,8 @@ void ang_gui_close_popups(ang_gui *gui);
 bool ang_gui_navigating(const ang_gui *gui);
 /* Whether a message was in front in the frame before. */
 bool ang_gui_dialog_open(const ang_gui *gui);
+/* Whether a menu is still opening or closing after a key: another one would miss it. */
+bool ang_gui_changing_menus(const ang_gui *gui);
 /* Whether a widget's value is being changed by keys. */
 bool ang_gui_adjusting(const ang_gui *gui);
 /* Gives the keyboard to the widget that had it last or the first, with the next frame; to the bar of menus; to none. */
@@ -135,8 +137,8 @@ typedef struct ang_canvas {
 } ang_canvas;
 
 /* A list that scrolls, of `count` rows of one height, `row` pixels, that the program draws itself; of them only those
- * from `first` up to `end` need to be. `follow`: the row that must show, -1: none. Tab passes over it. To be ended in
- * any case. */
+ * from `first` up to `end` need to be. `height` below 0: all that is left but for so much. `follow`: the row that must
+ * show, -1: none. Tab passes over it. To be ended in any case. */
 typedef struct ang_rows_part {
     int first, end;
     int page; /* rows that show at once */

@@ -258,6 +258,7 @@ static bool work(ang_viewer *viewer, const ang_viewer_options *options, ang_erro
         ang_viewer_take_preview(viewer);
         ang_series_browser_step(viewer);
         take_dropped(viewer);
+        ang_window_hold_keys(viewer->window, ang_gui_changing_menus(viewer->gui));
         bool more = ang_window_input(viewer->window, &viewer->input);
         /* Also for what comes while frames settle: a menu shows in the second frame after its click. */
         if (viewer->input.since_seconds > 0) viewer->redraws = settling_frames;

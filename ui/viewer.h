@@ -32,10 +32,11 @@ typedef struct ang_study {
     char description[260], patient[260]; /* the same; may identify the patient; empty: not known */
     ang_notes notes;                     /* warnings and assumptions, a sentence each */
     int warnings;                        /* how many of the notes, from the first, are warnings */
-    int series, series_count;            /* which of how many series of its source, from 1 */
-    ang_facts facts;                     /* geometry and values, nothing that may identify a patient */
-    char *report;                        /* all that loading found, as text to be copied; NULL: none */
-    void *handle;                        /* the host's */
+    int series, series_count; /* which of how many series of its source, from 1; the number also of what could
+                                 not be loaded */
+    ang_facts facts;          /* geometry and values, nothing that may identify a patient */
+    char *report;             /* all that loading found, as text to be copied; NULL: none */
+    void *handle;             /* the host's */
 } ang_study;
 
 /* What the viewer shows, for tests and for those who repeat a picture. Borrows. */

@@ -153,8 +153,9 @@ static void note_choice(const ang_dicom_listing *listing, size_t chosen, const a
     const ang_dicom_group *group = &groups->group[chosen];
     const ang_dicom_slice *first = &listing->folder.slices[group->order[0]];
     if (groups->series_count > 1 && !options->series)
-        ang_notes_add(&report->assumptions, "series %d of %d is shown: the largest %s volume; --series picks another",
-                      group->series, groups->series_count, strcmp(first->modality, "CT") == 0 ? "CT" : "image");
+        ang_notes_add(&report->assumptions, "series %d of %d is shown: the largest %s volume; %s picks another",
+                      group->series, groups->series_count, strcmp(first->modality, "CT") == 0 ? "CT" : "image",
+                      options->series_choice ? options->series_choice : "--series");
     note_patients(listing, first, options->series != NULL, report);
     if (group->duplicates > 0)
         ang_notes_add(&report->assumptions, "%d slice%s with the same %s and pixels as another: dropped",

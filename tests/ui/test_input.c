@@ -47,6 +47,29 @@ static void twenty_clicks_within_one_frame_all_arrive(void **state) {
     assert_false(was_down);
 }
 
+/* In their order, with what comes after them; what goes up does not wait. */
+static void keys_wait_while_they_are_held_back(void **state) {
+    (void)state;
+    start();
+    key('A', true);
+    ang_event_take(&queue, &input);
+    key('A', false);
+    key('B', true);
+    key('B', false);
+    button(ANG_BUTTON_LEFT, true, 5, 0);
+    queue.keys_held_back = true;
+    for (int i = 0; i < 3; i++) {
+        assert_true(ang_event_take(&queue, &input));
+        assert_false(input.key['A'] || input.button[ANG_BUTTON_LEFT]);
+        assert_int_equal(input.press_count, 0);
+    }
+    queue.keys_held_back = false;
+    assert_true(ang_event_take(&queue, &input));
+    assert_int_equal(input.press[0].key, 'B');
+    assert_false(ang_event_take(&queue, &input));
+    assert_true(input.button[ANG_BUTTON_LEFT]);
+}
+
 /* Press at 10, drag to 60, release: a frame must see the button down at 10, one at 60 still down, then up. */
 static void a_fast_drag_keeps_its_ends(void **state) {
     (void)state;
@@ -178,6 +201,7 @@ static void letters_held_down_ask_for_nothing_new(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(twenty_clicks_within_one_frame_all_arrive),
+        cmocka_unit_test(keys_wait_while_they_are_held_back),
         cmocka_unit_test(a_fast_drag_keeps_its_ends),
         cmocka_unit_test(taps_of_a_key_are_not_swallowed),
         cmocka_unit_test(keys_go_down_one_by_one),

@@ -17,10 +17,11 @@ static const role areas[] = {ROLE(panel),           ROLE(raised), ROLE(control),
                              ROLE(control_pressed), ROLE(chosen), ROLE(plot)};
 static const role texts[] = {ROLE(text), ROLE(dim), ROLE(accent), ROLE(warning), ROLE(bad), ROLE(good)};
 static const role marks[] = {ROLE(curve), ROLE(before), ROLE(ring)};
+static const role boxes[] = {ROLE(box)};
 static const role quiet[] = {ROLE(bars), ROLE(gap), ROLE(edge), ROLE(line), ROLE(grid), ROLE(bar_grip)};
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 /* A role that is added is looked at too. */
-_Static_assert((COUNT(areas) + COUNT(texts) + COUNT(marks) + COUNT(quiet)) * sizeof(ang_ink) ==
+_Static_assert((COUNT(areas) + COUNT(texts) + COUNT(marks) + COUNT(boxes) + COUNT(quiet)) * sizeof(ang_ink) ==
                    offsetof(ang_theme, bar_grip) + sizeof(ang_ink) - offsetof(ang_theme, panel),
                "every role is in one of the lists");
 
@@ -71,6 +72,14 @@ static void marks_of_plots_can_be_seen(void **state) {
     }
 }
 
+/* Without a tick as well; its ground is a control's, whether the pointer is on it or not. */
+static void check_boxes_can_be_seen(void **state) {
+    (void)state;
+    const role around[] = {ROLE(panel), ROLE(raised)};
+    for (size_t t = 0; t < COUNT(themes); t++)
+        for (size_t area = 0; area < COUNT(around); area++) expect_contrast(themes[t], &boxes[0], &around[area], 3);
+}
+
 /* On black as they stand, and on white with their dark outline. */
 static void writing_on_pictures_can_be_read(void **state) {
     (void)state;
@@ -82,9 +91,9 @@ static void writing_on_pictures_can_be_read(void **state) {
 
 static void every_colour_is_opaque_and_the_themes_differ(void **state) {
     (void)state;
-    const role *lists[] = {areas, texts, marks, quiet};
-    const size_t counts[] = {COUNT(areas), COUNT(texts), COUNT(marks), COUNT(quiet)};
-    for (int list = 0; list < 4; list++)
+    const role *lists[] = {areas, texts, marks, boxes, quiet};
+    const size_t counts[] = {COUNT(areas), COUNT(texts), COUNT(marks), COUNT(boxes), COUNT(quiet)};
+    for (int list = 0; list < 5; list++)
         for (size_t i = 0; i < counts[list]; i++) {
             ang_ink dark = ink_of(&ang_theme_dark, &lists[list][i]), light = ink_of(&ang_theme_light, &lists[list][i]);
             assert_int_equal(dark >> 24, 255);
@@ -100,6 +109,7 @@ int main(void) {
         cmocka_unit_test(contrast_is_wcags),
         cmocka_unit_test(every_text_can_be_read_on_every_area),
         cmocka_unit_test(marks_of_plots_can_be_seen),
+        cmocka_unit_test(check_boxes_can_be_seen),
         cmocka_unit_test(writing_on_pictures_can_be_read),
         cmocka_unit_test(every_colour_is_opaque_and_the_themes_differ),
     };

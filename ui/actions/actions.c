@@ -120,7 +120,7 @@ static void show_palette(ang_viewer *viewer, int argument) {
 }
 static void to_menus(ang_viewer *viewer, int argument) {
     (void)argument;
-    ang_gui_enter_menus(viewer->gui);
+    if (!ang_gui_holding(viewer->gui)) ang_gui_enter_menus(viewer->gui);
 }
 
 enum { C = ANG_MOD_CONTROL, S = ANG_MOD_SHIFT, A = ANG_MOD_ALT };

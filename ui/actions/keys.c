@@ -78,6 +78,7 @@ static const struct {
     unsigned same_modifiers;
 } aliases[] = {{'P', C | S, 'K', C},
                {'Y', C, 'Z', C | S},
+               {ANG_KEY_ALT, 0, ANG_KEY_F10, 0},
                {ANG_KEY_TAB, C, ANG_KEY_F6, 0},
                {ANG_KEY_TAB, C | S, ANG_KEY_F6, S},
                {'=', 0, '+', 0},

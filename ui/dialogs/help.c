@@ -28,6 +28,7 @@ static const struct {
     {"More keys", "Ctrl + Shift + arrows", "the gaps between the panes"},
     {"More keys", "Tab, Shift + Tab", "to the panel's controls; Esc: to the panes"},
     {"More keys", "Arrows, Enter, Space", "there: move, type, press or change"},
+    {"More keys", "Alt alone", "as F10: to the menus"},
     {"More keys", "Ctrl + Tab", "as F6: the next pane"},
     {"More keys", "Ctrl + Shift + P", "as Ctrl + K: find a command"},
 };

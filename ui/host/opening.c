@@ -32,6 +32,7 @@ static bool find_data(ang_viewer *viewer, ang_source *source) {
 static void start(ang_viewer *viewer, ang_source *source) {
     ang_error err = {0};
     viewer->failure[0] = '\0';
+    ang_source_clear(&viewer->failed);
     viewer->preview.count = 0;
     if (!find_data(viewer, source)) return;
     snprintf(viewer->asked, sizeof viewer->asked, "%s", source->count > 0 ? source->paths[0] : "");
@@ -80,6 +81,7 @@ void ang_viewer_take_loaded(ang_viewer *viewer, const char *wanted_preset) {
     } else if (err.code != ANG_INTERRUPTED) {
         snprintf(viewer->failure, sizeof viewer->failure, "%s", err.message);
         ang_source_move(&viewer->failed, &source);
+        if (study.series_count == 0) ang_source_clear(&viewer->failed); /* there is nothing to choose from */
     } else {
         ang_viewer_say(viewer, false, "Loading was cancelled.");
         ang_source_clear(&source);

@@ -48,8 +48,9 @@ void ang_settings_remember(ang_viewer *viewer, bool all) {
                                .width = last->width,
                                .height = last->height,
                                .recent = viewer->recent};
-    if (all) ang_window_size(viewer->window, &now.width, &now.height);
-    if (same(&now, last) && now.width == last->width && now.height == last->height) return;
+    bool changed = !same(&now, last);
+    if (all || (changed && now.width < 1)) ang_window_size(viewer->window, &now.width, &now.height);
+    if (!changed && now.width == last->width && now.height == last->height) return;
     *last = now;
     viewer->host->remember(viewer->host->context, last);
 }

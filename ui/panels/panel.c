@@ -37,8 +37,8 @@ static void rendering(ang_viewer *viewer) {
     const char *names[16] = {"auto"};
     int indices[16] = {0}, count = 1, chosen = 0;
     for (int i = 0; ang_methods()[i] && count < 16; i++) {
-        /* It takes minutes. */
-        if (ang_methods()[i] == &ang_method_reference) continue;
+        /* It takes minutes: only where a state has it. */
+        if (ang_methods()[i] == &ang_method_reference && document->method != i + 1) continue;
         names[count] = ang_methods()[i]->name;
         indices[count++] = i + 1;
     }

@@ -11,6 +11,7 @@
 #include <string.h>
 
 enum { PICTURE = 72, MARGIN = 6 }; /* at scale 1 */
+enum { REASON_LINES = 6 };         /* room for what there is to say of the chosen series */
 
 static void forget_list(ang_viewer *viewer) {
     ang_series_browser *series = &viewer->series;
@@ -181,23 +182,43 @@ static void draw_picture(ang_viewer *viewer, int row, double x, double y, double
     ang_gui_frame(gui, square, viewer->theme->edge);
 }
 
-/* "shown", or what the loader thinks of it; each with a sign of its own. */
-static void draw_verdict(ang_viewer *viewer, int row, double x, double y, double room) {
-    const ang_theme *theme = viewer->theme;
+/* "shown", or what the loader thinks of it; each with a sign of its own. Whether it is a warning. */
+static bool verdict_of(const ang_viewer *viewer, int row, char *text, size_t size) {
     ang_series_entry entry = viewer->series.list.entry[row];
-    char verdict[256], text[280], fitted[sizeof text + 4];
+    char verdict[480];
     bool shown = row == shown_row(viewer);
     if (shown) entry.warnings = viewer->study.warnings; /* reading has found more than looking */
     ang_series_entry_verdict(&entry, verdict, sizeof verdict);
     bool warned = entry.loadable && entry.warnings > 0;
     const char *sign = shown ? "\u25cf shown" : !entry.loadable ? "\u00d7" : warned ? "\u25b2" : "";
     bool plain = shown && !warned && !entry.remark[0];
-    snprintf(text, sizeof text, "%s%s%s", sign, !sign[0] || plain ? "" : shown ? ", " : " ", plain ? "" : verdict);
+    snprintf(text, size, "%s%s%s", sign, !sign[0] || plain ? "" : shown ? ", " : " ", plain ? "" : verdict);
+    return warned;
+}
+
+static void draw_verdict(ang_viewer *viewer, int row, double x, double y, double room) {
+    const ang_theme *theme = viewer->theme;
+    char text[512], fitted[sizeof text + 4];
+    bool warned = verdict_of(viewer, row, text, sizeof text);
     ang_gui_write(viewer->gui, x, y, 0, true, false,
-                  shown    ? theme->accent
-                  : warned ? theme->warning
-                           : theme->dim,
+                  row == shown_row(viewer) ? theme->accent
+                  : warned                 ? theme->warning
+                                           : theme->dim,
                   ang_text_fitted(viewer->gui, text, room, fitted, sizeof fitted));
+}
+
+/* All that there is to say of the chosen one, which a row may have cut off. */
+static void show_reason(ang_viewer *viewer) {
+    ang_gui *gui = viewer->gui;
+    const ang_series_browser *series = &viewer->series;
+    if (series->list.count == 0) return;
+    char text[512], verdict[480];
+    verdict_of(viewer, series->chosen, verdict, sizeof verdict);
+    snprintf(text, sizeof text, "Series %d: %s", series->list.entry[series->chosen].number, verdict);
+    ang_gui_gap(gui, ang_gui_px(gui, 4));
+    ang_gui_small_begin(gui);
+    ang_gui_paragraph(gui, text, 0);
+    ang_gui_small_end(gui);
 }
 
 static void draw_row(ang_viewer *viewer, int row) {
@@ -225,8 +246,9 @@ static void draw_row(ang_viewer *viewer, int row) {
     ang_gui_write(gui, x, y + 2 * line, 0, true, false, theme->dim, entry->dims[0] > 0 ? text : "");
     draw_verdict(viewer, row, x, y + 3 * line, room);
     ang_gui_unclip(gui);
-    ang_series_entry_verdict(entry, text, sizeof text);
-    if (canvas.hovered) ang_gui_tooltip(gui, text);
+    char verdict[480];
+    ang_series_entry_verdict(entry, verdict, sizeof verdict);
+    if (canvas.hovered) ang_gui_tooltip(gui, verdict);
     if (canvas.pressed) series->chosen = row;
     if (canvas.clicked) choose(viewer, row);
 }
@@ -250,9 +272,11 @@ void ang_series_browser_show(ang_viewer *viewer) {
         ang_gui_text_dim(gui, "Looking at the series ...");
     ang_rows_part part;
     double row_height = ang_gui_px(gui, PICTURE + 2 * MARGIN);
-    ang_gui_rows_begin(gui, "series", 0, 0, row_height, series->list.count, series->follow ? series->chosen : -1,
+    double reason = ang_gui_px(gui, 12) + REASON_LINES * (ang_gui_text_height(gui, true) + ang_gui_px(gui, 1));
+    ang_gui_rows_begin(gui, "series", 0, -reason, row_height, series->list.count, series->follow ? series->chosen : -1,
                        &part);
     series->follow = false;
     for (int row = part.first; row < part.end; row++) draw_row(viewer, row);
     ang_gui_rows_end(gui);
+    show_reason(viewer);
 }

@@ -81,7 +81,7 @@ static void draw(ang_viewer *viewer, const ang_preset *preset, int index, ang_re
     ang_ink border = chosen ? viewer->theme->accent : pointed ? viewer->theme->text : viewer->theme->edge;
     ang_gui_frame(gui, picture, border);
     ang_rect inner = {picture.x + 1, picture.y + 1, picture.width - 2, picture.height - 2};
-    if (chosen) ang_gui_frame(gui, inner, border);
+    if (chosen) ang_gui_frame(gui, inner, pointed ? viewer->theme->text : border);
     fit(gui, preset->name, picture.width, text, sizeof text);
     ang_gui_write(gui, picture.x + picture.width / 2, picture.y + picture.height + ang_gui_px(gui, 2), 0.5, true, false,
                   chosen || pointed ? viewer->theme->text : viewer->theme->dim, text);
@@ -116,14 +116,38 @@ void ang_thumbnails_show(ang_viewer *viewer) {
     viewer->browsing = false;
 }
 
-/* Where the strip is scrolled to: by the wheel, a drag, or to what has just been chosen. */
-static void scroll(ang_viewer *viewer, const ang_canvas *canvas, int chosen, double pitch, double most) {
+/* Arrows go from one to the next while the strip has the keyboard, from the chosen one on. True where they went. */
+static bool move_cursor(ang_viewer *viewer, const ang_canvas *canvas, int chosen, int count) {
     ang_thumbnails *thumbnails = &viewer->thumbnails;
+    const ang_input *input = &viewer->input;
+    int before = thumbnails->by_keys ? thumbnails->cursor : -1, at = before;
+    thumbnails->by_keys = canvas->focused && count > 0;
+    if (!thumbnails->by_keys) return false;
+    ang_gui_canvas_arrows(viewer->gui);
+    if (at < 0) at = chosen;
+    for (int i = 0; i < input->press_count; i++) {
+        int key = input->press[i].key;
+        at = key == ANG_KEY_LEFT    ? at - 1
+             : key == ANG_KEY_RIGHT ? at + 1
+             : key == ANG_KEY_HOME  ? 0
+             : key == ANG_KEY_END   ? count - 1
+                                    : at;
+    }
+    thumbnails->cursor = at < 0 ? 0 : at >= count ? count - 1 : at;
+    return thumbnails->cursor != before;
+}
+
+/* Where the strip is scrolled to: by the wheel, a drag, or to what has just been chosen or gone to. */
+static void scroll(ang_viewer *viewer, const ang_canvas *canvas, int chosen, bool moved, double pitch, double most) {
+    ang_thumbnails *thumbnails = &viewer->thumbnails;
+    int seen = -1;
     if (strcmp(thumbnails->shown, viewer->document.preset) != 0) {
         memcpy(thumbnails->shown, viewer->document.preset, sizeof thumbnails->shown);
-        double left = chosen * pitch, right = left + pitch - canvas->rect.width;
-        if (chosen >= 0) thumbnails->scroll = fmin(fmax(thumbnails->scroll, right), left);
+        seen = chosen;
     }
+    if (moved) seen = thumbnails->cursor;
+    double start = seen * pitch, end = start + pitch - canvas->rect.width;
+    if (seen >= 0) thumbnails->scroll = fmin(fmax(thumbnails->scroll, end), start);
     if (canvas->held >= 0) thumbnails->scroll -= canvas->dx;
     thumbnails->scroll -= canvas->wheel * pitch;
     thumbnails->scroll = round(fmin(fmax(thumbnails->scroll, 0), fmax(most, 0)));
@@ -139,13 +163,16 @@ void ang_thumbnails_strip(ang_viewer *viewer) {
     double bar = ang_gui_px(gui, BAR), line = ang_gui_px(gui, LINE);
     ang_canvas canvas;
     ang_gui_canvas(gui, "preset strip", room, height + line + bar, &canvas);
-    scroll(viewer, &canvas, ang_preset_chosen(viewer, presets, count), pitch, all - room);
+    int chosen = ang_preset_chosen(viewer, presets, count);
+    bool moved = move_cursor(viewer, &canvas, chosen, count);
+    scroll(viewer, &canvas, chosen, moved, pitch, all - room);
     double left = thumbnails->scroll;
     thumbnails->first = (int)floor(left / pitch);
     thumbnails->last = (int)floor((left + room - 1) / pitch);
     double at = left + canvas.x;
     int under = (int)floor(at / pitch);
     if (canvas.hovered && canvas.y < height + line && under < count && at - under * pitch < width) pointed = under;
+    if (thumbnails->by_keys) pointed = thumbnails->cursor;
     ang_gui_clip(gui, canvas.rect);
     for (int i = thumbnails->first; i <= thumbnails->last && i < count; i++) {
         ang_rect picture = {canvas.rect.x + i * pitch - left, canvas.rect.y, width, height};
@@ -159,6 +186,6 @@ void ang_thumbnails_strip(ang_viewer *viewer) {
     }
     ang_gui_unclip(gui);
     if (pointed >= 0) tell(gui, presets[pointed]);
-    if (pointed >= 0 && canvas.clicked && canvas.released == ANG_BUTTON_LEFT)
+    if (pointed >= 0 && (canvas.activated || (canvas.clicked && canvas.released == ANG_BUTTON_LEFT)))
         ang_viewer_choose_preset(viewer, presets[pointed]);
 }

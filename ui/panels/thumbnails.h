@@ -13,6 +13,8 @@ typedef struct ang_thumbnails {
     bool made[ANG_PRESETS]; /* or tried in vain */
     double scroll;          /* of the strip, pixels */
     int first, last;        /* seen in the strip */
+    bool by_keys;           /* the strip has the keyboard: */
+    int cursor;             /* the one that Enter takes */
     char shown[64];         /* the preset that the strip was last scrolled to */
 } ang_thumbnails;
 

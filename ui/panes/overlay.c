@@ -1,6 +1,7 @@
 #include "ui/panes/overlay.h"
 
 #include "core/scene/annotation.h"
+#include "ui/panes/volume_pane.h"
 #include "ui/study.h"
 #include "ui/viewer_private.h"
 
@@ -143,10 +144,9 @@ static void status_cells(status *status) {
     cell(status, 72, false, text);
     snprintf(text, sizeof text, "C %.0f  W %.0f", document->window_centre, document->window_width);
     cell(status, 110, true, text);
-    if (viewer->focus.pane < ANG_PANE_VOLUME)
-        snprintf(text, sizeof text, "zoom %.0f %%", ang_slice_zoom_percent(viewer, (ang_pane)viewer->focus.pane));
-    else
-        snprintf(text, sizeof text, "zoom %.2f", document->view.zoom);
+    ang_pane pane = (ang_pane)viewer->focus.pane;
+    snprintf(text, sizeof text, "zoom %.0f %%",
+             pane == ANG_PANE_VOLUME ? ang_volume_zoom_percent(viewer) : ang_slice_zoom_percent(viewer, pane));
     cell(status, 76, true, text);
     bool measures = viewer->tool == ANG_TOOL_MEASURE;
     snprintf(text, sizeof text, "tool: %s",

@@ -18,6 +18,11 @@ static double scale_of(const ang_viewer *viewer, ang_rect rect) {
     return ang_annotation_make(&scene, NULL).mm_per_pixel;
 }
 
+double ang_volume_zoom_percent(const ang_viewer *viewer) {
+    double pixel = scale_of(viewer, viewer->pane[ANG_PANE_VOLUME]);
+    return pixel > 0 ? 100 * ang_volume_smallest_spacing(viewer->study.volume) / pixel : 0;
+}
+
 static void zoom(ang_viewer *viewer, ang_rect rect, double x, double y, double factor) {
     ang_view_zoom(&viewer->document.view, viewer->study.volume, (int)rect.width, (int)rect.height, x, y, factor);
 }
@@ -129,13 +134,14 @@ static void write_corners(ang_viewer *viewer, ang_rect rect) {
         ang_pane_corner(viewer, rect, 0, 1, 1, text);
     }
     ang_playing_write(viewer, ANG_PANE_VOLUME, rect, bent ? 2 : 1);
+    double percent = ang_volume_zoom_percent(viewer);
     if (document->mode == ANG_MODE_DVR)
-        snprintf(text, sizeof text, "zoom %.2f", document->view.zoom);
+        snprintf(text, sizeof text, "zoom %.0f %%", percent);
     else if (document->mode == ANG_MODE_ISO)
-        snprintf(text, sizeof text, "surface %.0f%s  zoom %.2f", document->iso_hu, unit, document->view.zoom);
+        snprintf(text, sizeof text, "surface %.0f%s  zoom %.0f %%", document->iso_hu, unit, percent);
     else
-        snprintf(text, sizeof text, "C %.0f  W %.0f%s  zoom %.2f", document->window_centre, document->window_width,
-                 unit, document->view.zoom);
+        snprintf(text, sizeof text, "C %.0f  W %.0f%s  zoom %.0f %%", document->window_centre, document->window_width,
+                 unit, percent);
     ang_pane_corner(viewer, rect, 1, 1, 0, text);
     ang_pane_corner(viewer, rect, 1, 1, 1, volume->refined ? "" : ang_volume_level(viewer) > 0 ? "refining" : "coarse");
 }

@@ -14,7 +14,7 @@ typedef struct ang_series_entry {
     int dims[3];          /* columns, rows, slices; 0: not known before it is read */
     double spacing_mm[3];
     bool loadable;
-    char remark[160];  /* what it is, or why it cannot be loaded; empty: nothing to say */
+    char remark[400];  /* what it is, or why it cannot be loaded; empty: nothing to say */
     bool looked_at;    /* the rest is known */
     int warnings;      /* that loading it would give */
     int width, height; /* of the thumbnail; 0: there is none */

@@ -55,6 +55,12 @@ static void leave_what_has_gone(ang_gui *gui) {
         if (gone && shown && stop.id == gui->before) give(stop);
 }
 
+/* Menus open and close in the frames after a key. */
+static void settle_menus(ang_gui *gui) {
+    if (gui->menu_settles > 0) gui->menu_settles--;
+    if (gui->input.press_count > 0 && (gui->bar || ang_gui_popup_open(gui))) gui->menu_settles = menu_change;
+}
+
 /* Left and Right in a menu open the one beside it; Dear ImGui goes to its name alone, a frame after the key. */
 static void change_menus(ang_gui *gui) {
     const ang_input &input = gui->input;
@@ -138,6 +144,7 @@ void ang_gui_take_keys(ang_gui *gui) {
     press_by_enter(gui);
     take_tabs(gui);
     change_menus(gui);
+    settle_menus(gui);
     bool shown = takes_keys(g.NavWindow) && !g.NavDisableHighlight;
     gui->navigating = ang_gui_popup_open(gui) || gui->bar || shown;
     if (!gui->dialog) gui->before = shown ? g.NavId : 0;
@@ -163,6 +170,8 @@ void ang_gui_dialog_opened(ang_gui *gui) {
     gui->dialog = g.CurrentWindow;
     if (ImGui::IsWindowAppearing() && gui->by_keys) g.NavDisableHighlight = false;
 }
+
+bool ang_gui_changing_menus(const ang_gui *gui) { return gui->menu_settles > 0; }
 
 bool ang_gui_navigating(const ang_gui *gui) { return gui->navigating; }
 
@@ -190,6 +199,7 @@ void ang_gui_menu_focus(ang_gui *gui) {
     gui->menus_wanted = false;
     gui->bar = true;
     gui->bar_frames = 0;
+    gui->menu_settles = menu_change;
     ImGui::FocusWindow(window);
     ImGui::SetNavID(g.LastItemData.ID, ImGuiNavLayer_Menu, 0,
                     ImGui::WindowRectAbsToRel(window, g.LastItemData.NavRect));

@@ -47,6 +47,7 @@ struct ang_gui {
     bool bar, menus_wanted;           /* the bar of menus has it; it is to have it */
     int bar_frames;                   /* without a menu, before the bar is left */
     int menu_waits;                   /* frames in which the menu beside the one that was left may open */
+    int menu_settles;                 /* frames until a key in a menu has done all that it does */
     bool pressing;                    /* Enter went down on a widget and is still held */
     bool by_keys;                     /* the last that was done was done by a key; at first so */
     int frames;                       /* so far; in the first the pointer is where it happens to be */

@@ -126,7 +126,11 @@ bool ang_gui_button(ang_gui *gui, const char *label, double width, bool enabled)
 }
 bool ang_gui_pressed(const ang_gui *) { return ImGui::IsItemActive(); }
 bool ang_gui_checkbox(ang_gui *gui, const char *label, bool *value) {
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, std::fmax((float)ang_gui_px(gui, 1), 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_Border, gui->theme->box);
     bool changed = ImGui::Checkbox(label, value);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
     ang_gui_note_stop(gui);
     return changed;
 }

@@ -38,7 +38,7 @@ typedef struct taken {
     bool edge[ANG_KEY_COUNT];
 } taken;
 
-static bool fits(const ang_event *event, const taken *so_far, const ang_input *input) {
+static bool fits(const ang_event_queue *queue, const ang_event *event, const taken *so_far, const ang_input *input) {
     switch (event->kind) {
     case ANG_EVENT_MOVE:
         return !so_far->button && !so_far->wheel;
@@ -47,7 +47,8 @@ static bool fits(const ang_event *event, const taken *so_far, const ang_input *i
     case ANG_EVENT_WHEEL:
         return !so_far->button;
     case ANG_EVENT_KEY:
-        return !so_far->edge[event->code] && !(event->down && event->code != ANG_KEY_NONE && so_far->pressed) &&
+        return !(queue->keys_held_back && event->down) && !so_far->edge[event->code] &&
+               !(event->down && event->code != ANG_KEY_NONE && so_far->pressed) &&
                input->press_count < ANG_INPUT_PRESSES;
     case ANG_EVENT_CHARACTER:
         return input->character_count < ANG_INPUT_CHARACTERS;
@@ -112,7 +113,7 @@ bool ang_event_take(ang_event_queue *queue, ang_input *input) {
     input->press_count = input->character_count = 0;
     input->since_seconds = queue->count > 0 ? at(queue, 0)->seconds : 0;
     memset(input->double_click, 0, sizeof input->double_click);
-    while (queue->count > 0 && fits(at(queue, 0), &so_far, input)) {
+    while (queue->count > 0 && fits(queue, at(queue, 0), &so_far, input)) {
         apply(queue, at(queue, 0), &so_far, input);
         queue->first = (queue->first + 1) % ANG_EVENT_CAPACITY;
         queue->count--;

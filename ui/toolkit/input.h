@@ -37,6 +37,7 @@ typedef enum ang_key {
     ANG_KEY_F10,
     ANG_KEY_F11,
     ANG_KEY_F12,
+    ANG_KEY_ALT, /* pressed and released with nothing in between; else it is a modifier alone */
     ANG_KEY_COUNT = 256
 } ang_key;
 
@@ -94,6 +95,7 @@ typedef struct ang_event_queue {
     ang_event event[ANG_EVENT_CAPACITY];
     size_t first, count;
     ang_event last_press; /* the last button that went down */
+    bool keys_held_back;  /* no frame sees a key go down */
 } ang_event_queue;
 
 /* Appends; a move after a move replaces it. Where the queue is full the event is dropped, except that keys and buttons

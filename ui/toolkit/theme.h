@@ -40,6 +40,7 @@ typedef struct ang_theme {
     ang_ink before; /* in plots: the curve to compare with */
     ang_ink bars;   /* in plots: the histogram; quieter than marks */
     ang_ink ring;   /* around points of a plot, whose own colour may be any */
+    ang_ink box;    /* around check boxes, ticked or not: on the areas of panel and messages */
     /* Quiet lines and gaps, that need no contrast. */
     ang_ink gap;      /* between panes, and where there is nothing */
     ang_ink edge;     /* of messages, menus and pictures in lists */

@@ -15,6 +15,7 @@ struct ang_window {
     ang_event_queue queue;
     double x, y;         /* of the last move: where the pointer was when a button went down */
     unsigned modifiers;  /* ANG_MOD_* */
+    bool alt_alone;      /* Alt went down, and nothing else has happened since */
     bool repeats;        /* the key that last went down repeats: so does the character after it */
     double asked, heard; /* seconds: when events were last asked for, and when all until then had come */
     bool damaged;        /* size or contents must be drawn again */
@@ -108,6 +109,7 @@ static void on_move(GLFWwindow *handle, double x, double y) {
 static void on_button(GLFWwindow *handle, int button, int action, int modifiers) {
     ang_window *window = of(handle);
     window->modifiers = modifiers_of(modifiers);
+    window->alt_alone = false;
     int code = button == GLFW_MOUSE_BUTTON_LEFT    ? ANG_BUTTON_LEFT
                : button == GLFW_MOUSE_BUTTON_RIGHT ? ANG_BUTTON_RIGHT
                                                    : ANG_BUTTON_MIDDLE;
@@ -118,6 +120,7 @@ static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
 }
 
 static void on_wheel(GLFWwindow *handle, double x, double y) {
+    of(handle)->alt_alone = false;
     push(of(handle), (ang_event){.kind = ANG_EVENT_WHEEL, .x = x, .y = y});
 }
 
@@ -127,11 +130,18 @@ static void on_key(GLFWwindow *handle, int key, int scancode, int action, int mo
     unsigned held = modifiers_of(modifiers);
     window->modifiers = action == GLFW_RELEASE ? held & ~own : held | own;
     window->repeats = action == GLFW_REPEAT;
+    bool alone = window->alt_alone && own == ANG_MOD_ALT && action == GLFW_RELEASE;
+    if (own == ANG_MOD_ALT && action == GLFW_PRESS)
+        window->alt_alone = !(held & ~own);
+    else if (own != ANG_MOD_ALT || action == GLFW_RELEASE)
+        window->alt_alone = false;
     if (key == GLFW_KEY_UNKNOWN && !own) return;
     push(window, (ang_event){.kind = ANG_EVENT_KEY,
                              .code = own ? ANG_KEY_NONE : key_of(key, scancode),
                              .down = action != GLFW_RELEASE,
                              .repeat = action == GLFW_REPEAT});
+    for (int down = 1; alone && down >= 0; down--)
+        push(window, (ang_event){.kind = ANG_EVENT_KEY, .code = ANG_KEY_ALT, .down = down});
 }
 
 static void on_character(GLFWwindow *handle, unsigned character) {
@@ -143,6 +153,7 @@ static void on_focus(GLFWwindow *handle, int focused) {
     ang_window *window = of(handle);
     if (focused) return;
     window->modifiers = 0;
+    window->alt_alone = false;
     push(window, (ang_event){.kind = ANG_EVENT_FOCUS_LOST});
 }
 
@@ -267,6 +278,8 @@ bool ang_window_input(ang_window *window, ang_input *input) {
     window->damaged = false;
     return ang_event_take(&window->queue, input);
 }
+
+void ang_window_hold_keys(ang_window *window, bool hold) { window->queue.keys_held_back = hold; }
 
 void ang_window_wait(ang_window *window, double seconds) {
     window->asked = ang_now_ms() / 1000;

@@ -20,6 +20,8 @@ ang_gl *ang_window_gl(ang_window *window);
 /* Gives `input`, which must be the one of the last call or zero, what the next frame may see (ang_event_take), size and
  * scale included. True where events remain. */
 bool ang_window_input(ang_window *window, ang_input *input);
+/* Whether keys that go down, and all that comes after them, wait for a later frame. */
+void ang_window_hold_keys(ang_window *window, bool hold);
 /* Sleeps until something happens, at most `seconds` (infinite: no limit); returns at once where events remain. */
 void ang_window_wait(ang_window *window, double seconds);
 /* Looks for events without sleeping: whether something has happened that a frame should see,
