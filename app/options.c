@@ -57,6 +57,9 @@ static const ang_option table[] = {
     TEXT_OPTION("size", DRAWS, size, "WxH", "512x512", "picture size in pixels"),
     TEXT_OPTION("size", ANG_VERB_PRESETS, size, "WxH", "256x256", "sheet: size of each preset's picture in pixels"),
     TEXT_OPTION("size", ANG_VERB_VIEW, size, "WxH", NULL, "window size in pixels; default: as suits the screen"),
+    REAL_OPTION("scale", ANG_VERB_VIEW, scale, "X", 0.5, 8, NULL, NULL,
+                "size of texts and controls, 1 on an ordinary screen; default: what the desktop says (Xft.dpi), or by "
+                "the size of the screen's pixels"),
     TEXT_OPTION("pictures", ANG_VERB_VIEW, pictures, "DIR", ".", "folder that saved pictures and states go to"),
     TEXT_OPTION(
         "state", DRAWS, state, "FILE", NULL,

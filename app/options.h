@@ -29,7 +29,7 @@ typedef struct ang_options {
     const char *backend, *json, *raw_dims, *raw_type, *raw_spacing, *dims, *spacing, *heat, *proxy, *bricks, *gradients,
         *skipping, *cut_plane, *measure, *force, *state, *write_state, *pictures, *classification, *sweep;
     const char *cases;
-    double shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold, time_limit, max_error,
+    double scale, shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold, time_limit, max_error,
         max_time, fps; /* NaN where not given and without default */
     int frames, repeat, threads, seed, pass_steps, quads, phase;
     bool no_termination, no_skip, count_shown, separate_passes, show_bricks, axes, explain, manual_filter, strict,

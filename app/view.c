@@ -181,6 +181,7 @@ static bool run(view *view, ang_error *err) {
     if (options->size && !ang_app_parse_dims("size", options->size, 2, 16384, size, err)) return false;
     how.width = size[0];
     how.height = size[1];
+    how.scale = options->scale;
     if (!ang_view_presets_read(&view->presets, &how.preset, err)) return false;
     if (options->state && !ang_waiting_read(&view->waiting, options->state, err)) return false;
     if (options->state && how.path_count == 0) {

@@ -287,7 +287,7 @@ bool ang_viewer_run(const ang_viewer_host *host, const ang_viewer_options *optio
     viewer->cine = ang_cine_default;
     int width = options->width > 0 ? options->width : viewer->remembered.width;
     int height = options->height > 0 ? options->height : viewer->remembered.height;
-    viewer->window = ang_window_create("Angioscope", width, height, err);
+    viewer->window = ang_window_create("Angioscope", width, height, options->scale, err);
     if (viewer->window) viewer->painter = ang_painter_create(ang_window_gl(viewer->window), err);
     if (viewer->painter) viewer->gui = ang_gui_create(viewer->window, viewer->painter, host->font, err);
     bool done = viewer->gui && work(viewer, options, err);

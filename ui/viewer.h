@@ -169,6 +169,7 @@ typedef struct ang_viewer_options {
     size_t path_count;        /* 0: the file browser opens */
     const char *preset;       /* name of the one to begin with; NULL: as suits */
     int width, height;        /* of the window, pixels; 0: as suits the screen */
+    double scale;             /* of texts and controls; NaN: as suits the screen */
 } ang_viewer_options;
 
 /* Opens the window, works until it is closed. False with ANG_GL where no window can be opened, or what went wrong in it

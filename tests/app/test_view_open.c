@@ -169,6 +169,11 @@ static void loading_is_cancelled_or_replaced(void **state) {
     drop(FOLDER "/nothing.dcm");
     expect_text("phase", "failed");
     expect_number("axial.slices", 20, 0);
+    hands("key F3"); /* of the study that is shown: in what was asked for there is no series */
+    expect_count("series.listed", 1);
+    expect_count("series.looked_at", 1);
+    hands("key F3");
+    expect_text("open", "");
     hands("key Return"); /* its first button */
     expect_text("open", "files");
     hands("key --delay 150 Escape Escape");

@@ -2,6 +2,7 @@
 
 #include "core/base/clock.h"
 #include "core/base/memory.h"
+#include "ui/toolkit/scale.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -24,6 +25,8 @@ struct ang_window {
     bool dropped_fresh; /* nobody has asked for them yet */
     GLFWcursor *cursors[ANG_CURSOR_COUNT];
     ang_cursor cursor;
+    double asked_scale; /* NaN: as suits the screen: */
+    double scale;
     int placed[4]; /* x, y, width, height before full screen */
 };
 
@@ -165,10 +168,39 @@ static void on_size(GLFWwindow *handle, int width, int height) {
     of(handle)->damaged = true;
 }
 
+/* Of the screen that the window's middle is on. */
+static void find_scale(ang_window *window) {
+    float told_x = 1, told_y = 1;
+    int count, x, y, width, height, mm = 0, mm_down, pixels = 0;
+    GLFWmonitor **monitors = glfwGetMonitors(&count);
+    glfwGetWindowContentScale(window->handle, &told_x, &told_y);
+    glfwGetWindowPos(window->handle, &x, &y);
+    glfwGetWindowSize(window->handle, &width, &height);
+    for (int i = 0; i < count; i++) {
+        int left, top;
+        const GLFWvidmode *mode = glfwGetVideoMode(monitors[i]);
+        glfwGetMonitorPos(monitors[i], &left, &top);
+        if (!mode || x + width / 2 < left || x + width / 2 >= left + mode->width || y + height / 2 < top ||
+            y + height / 2 >= top + mode->height)
+            continue;
+        pixels = mode->width;
+        glfwGetMonitorPhysicalSize(monitors[i], &mm, &mm_down);
+    }
+    double scale = isnan(window->asked_scale) ? ang_screen_scale((double)told_x, pixels, mm) : window->asked_scale;
+    if (scale < window->scale || scale > window->scale) window->damaged = true;
+    window->scale = scale;
+}
+
 static void on_scale(GLFWwindow *handle, float x, float y) {
     (void)x;
     (void)y;
-    of(handle)->damaged = true;
+    find_scale(of(handle));
+}
+
+static void on_place(GLFWwindow *handle, int x, int y) {
+    (void)x;
+    (void)y;
+    find_scale(of(handle));
 }
 
 static void forget_dropped(ang_window *window) {
@@ -216,10 +248,11 @@ static void listen(GLFWwindow *handle) {
     glfwSetWindowRefreshCallback(handle, on_damage);
     glfwSetFramebufferSizeCallback(handle, on_size);
     glfwSetWindowContentScaleCallback(handle, on_scale);
+    glfwSetWindowPosCallback(handle, on_place);
     glfwSetDropCallback(handle, on_drop);
 }
 
-ang_window *ang_window_create(const char *title, int width, int height, ang_error *err) {
+ang_window *ang_window_create(const char *title, int width, int height, double scale, ang_error *err) {
     if (!glfwInit()) {
         fail(err, "no window can be opened");
         return NULL;
@@ -252,6 +285,8 @@ ang_window *ang_window_create(const char *title, int width, int height, ang_erro
     glfwSetWindowUserPointer(window->handle, window);
     glfwSetWindowSizeLimits(window->handle, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     listen(window->handle);
+    window->asked_scale = scale;
+    find_scale(window);
     window->damaged = true;
     return window;
 }
@@ -270,10 +305,8 @@ void ang_window_destroy(ang_window *window) {
 ang_gl *ang_window_gl(ang_window *window) { return window->gl; }
 
 bool ang_window_input(ang_window *window, ang_input *input) {
-    float scale_x = 1, scale_y = 1;
-    glfwGetWindowContentScale(window->handle, &scale_x, &scale_y);
     glfwGetFramebufferSize(window->handle, &input->width, &input->height);
-    input->scale = scale_x >= 0.5f && scale_x <= 8 ? (double)scale_x : 1;
+    input->scale = window->scale;
     input->time_seconds = ang_now_ms() / 1000;
     window->damaged = false;
     return ang_event_take(&window->queue, input);

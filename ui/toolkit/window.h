@@ -10,8 +10,9 @@ typedef struct ang_window ang_window;
 
 /* Opens a window of width x height pixels, or, where they are 0, most of the screen, with OpenGL current on the calling
  * thread, which must be the first of the program and make all other calls but ang_window_wake. One window a process.
+ * `scale`: pixels for each unit of length of the interface, NaN: as suits the screen (scale.h).
  * NULL with ANG_GL and the window system's words where there is no screen or no OpenGL 4.3. */
-ang_window *ang_window_create(const char *title, int width, int height, ang_error *err);
+ang_window *ang_window_create(const char *title, int width, int height, double scale, ang_error *err);
 void ang_window_destroy(ang_window *window);
 
 /* Owned by the window. */
