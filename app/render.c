@@ -108,7 +108,7 @@ static bool open_gl(session *run, const char **why, ang_error *err) {
     if (!wants_gl) return true;
     if (automatic && !forced && backend == ANG_BACKEND_AUTO && !ang_app_budget_given(run->options)) {
         take_gl(run, ang_gl_create_on_gpu());
-        if (!run->gl) run->method = ang_method_choose_without_gl(run->volume, &picture->scene, &picture->render, why);
+        if (!run->gl) run->method = ang_method_choose_without_gl(run->volume, &picture->render, why);
         if (run->gl || run->method) return true;
     }
     take_gl(run, ang_gl_create(backend, err));

@@ -14,9 +14,11 @@ enum { ANG_CAST_TILE = 16 }; /* pixels a side of what is followed at once */
 typedef enum ang_cast_kind {
     ANG_CAST_LIGHT,       /* dvr */
     ANG_CAST_LIGHT_PHONG, /* dvr with shading */
-    ANG_CAST_HIGHEST,     /* mip */
-    ANG_CAST_LOWEST,      /* minip */
-    ANG_CAST_MEAN,        /* without padding */
+    ANG_CAST_WHOLE,       /* dvr with steps classified by all values between their ends */
+    ANG_CAST_WHOLE_PHONG,
+    ANG_CAST_HIGHEST, /* mip */
+    ANG_CAST_LOWEST,  /* minip */
+    ANG_CAST_MEAN,    /* without padding */
     ANG_CAST_MEAN_WEIGHTED,
     ANG_CAST_SURFACE /* iso */
 } ang_cast_kind;
@@ -52,8 +54,9 @@ typedef struct ang_cast {
     const float *extinctions; /* the fourth of every four of them */
     float first, per_value;
     int intervals;
-    bool jumps, thin, one_colour; /* ANG_PART_ROUNDING, not ANG_PART_EXPONENTIAL, not ANG_PART_COLOUR */
-    float colour[3];              /* where one_colour */
+    const float *steps, *integrals, *plateaus; /* for steps as a whole: ang_whole_steps; plateaus may be NULL */
+    bool jumps, thin, one_colour;              /* ANG_PART_ROUNDING, not ANG_PART_EXPONENTIAL, not ANG_PART_COLOUR */
+    float colour[3];                           /* where one_colour */
     float termination;
     /* shading */
     float gradient_to_mm[3][3]; /* halved stored differences to HU per mm */

@@ -1,91 +1,21 @@
 /* Following the rays of a tile, LANES at once. Each lane follows a ray of its own from stretch to stretch and takes up
  * the next ray when its own has ended, so that hardly any lane idles whatever the rays meet. Opacity is added up as the
- * samples come; what is seen there (colour and shading, which costs far more) is put off until all lanes can be filled
- * with samples that show. Compiled once for each width: core/CMakeLists.txt. */
-#include "core/cpu/cast_rays.h"
-#include "core/cpu/cast_shade.h"
+ * samples come; what is seen there is put off (cast_light.h). Compiled once for each width: core/CMakeLists.txt. */
+#include "core/cpu/cast_light.h"
 
 #ifndef CAST_TILE
 #define CAST_TILE ang_cast_tile_baseline
 #endif
 
-/* Samples that show: whose, how much of its light arrives, and what is there. */
-typedef struct seen {
-    int count;
-    float ray[3 * LANES], added[3 * LANES], value[3 * LANES], place[3][3 * LANES];
-} seen;
-
-/* Adds the light of the first LANES samples, those of a ray in their order. */
-INLINE void add_light(const ang_cast *cast, tile *t, const seen *s, bool phong) {
-    lanes_int ray = (lanes_int)lanes_load(s->ray);
-    lanes added = lanes_load(s->added), light[4];
-    colour_at(cast, lanes_load(s->value), light);
-    if (phong) {
-        lanes place[3], direction[3];
-        lanes_int whose = ray;
-        for (int axis = 0; axis < 3; axis++) {
-            place[axis] = lanes_load(s->place[axis]);
-            direction[axis] = lanes_floats(t->direction[axis], whose);
-        }
-        spot at = find_spot(cast, place);
-        shade(cast, &at, direction, light);
-    }
-    for (int c = 0; c < 3; c++) light[c] *= added;
-    light[3] = added;
-    float each[4 * LANES];
-    int whose[LANES];
-    lanes_transpose_back(light, each);
-    lanes_store_int(whose, ray);
-    typedef float four __attribute__((vector_size(16)));
-    for (int l = 0; l < LANES; l++) {
-        four sum, more;
-        memcpy(&sum, t->light[whose[l]], sizeof sum);
-        memcpy(&more, each + 4 * l, sizeof more);
-        sum += more;
-        memcpy(t->light[whose[l]], &sum, sizeof sum);
-    }
-}
-
-INLINE void move_down(seen *s, bool phong) {
-    s->count -= LANES;
-    lanes_store(s->ray, lanes_load(s->ray + LANES));
-    lanes_store(s->added, lanes_load(s->added + LANES));
-    lanes_store(s->value, lanes_load(s->value + LANES));
-    for (int axis = 0; axis < 3 && phong; axis++) lanes_store(s->place[axis], lanes_load(s->place[axis] + LANES));
-}
-
-INLINE void note_seen(const ang_cast *cast, tile *t, seen *s, unsigned bits, lanes_int ray, lanes added, lanes value,
-                      const lanes place[3], bool phong) {
-    lanes_pack(s->ray + s->count, (lanes)ray, bits);
-    lanes_pack(s->added + s->count, added, bits);
-    lanes_pack(s->value + s->count, value, bits);
-    for (int axis = 0; axis < 3 && phong; axis++) lanes_pack(s->place[axis] + s->count, place[axis], bits);
-    s->count += lanes_count(bits);
-    if (s->count < LANES) return;
-    add_light(cast, t, s, phong);
-    move_down(s, phong);
-}
-
-/* What is left: filled up with samples of nobody. */
-INLINE void note_rest(const ang_cast *cast, tile *t, seen *s, bool phong) {
-    if (s->count == 0) return;
-    for (int i = s->count; i < LANES; i++) {
-        int nobody = RAYS;
-        memcpy(&s->ray[i], &nobody, sizeof nobody);
-        s->added[i] = s->value[i] = 0;
-        for (int axis = 0; axis < 3; axis++) s->place[axis][i] = 0;
-    }
-    add_light(cast, t, s, phong);
-    s->count = 0;
-}
-
 /* What each lane follows. */
 typedef struct walk {
     lanes start[3], direction[3], count, last_piece;
     lanes i, end; /* of the stretch */
+    lanes begin;  /* steps as a whole: the stretch's first, before which `i` once stands to look up where it begins */
     lanes taken;  /* samples of the ray since it was taken up */
     lanes state;  /* opacity, extreme, sum or hit so far */
     lanes light[3], lost[2], weight;
+    step_end at;   /* steps as a whole: where the next begins */
     lanes_int ray; /* RAYS: none is left */
     int next;      /* of the tile's active rays, to be taken up */
     int stretch[LANES];
@@ -93,8 +23,14 @@ typedef struct walk {
 
 INLINE void put(lanes *x, lanes_int lane, float value) { *x = lanes_pick(lane, lanes_all(value), *x); }
 
+INLINE void start_stretch(walk *w, lanes_int lane, float from, float to, ang_cast_kind kind) {
+    put(&w->i, lane, is_whole(kind) ? from - 1 : from);
+    put(&w->end, lane, to);
+    if (is_whole(kind)) put(&w->begin, lane, from);
+}
+
 /* Gives lane `l` the next ray that has a stretch. */
-INLINE void take_up(const tile *t, walk *w, int l) {
+INLINE void take_up(const tile *t, walk *w, int l, ang_cast_kind kind) {
     lanes_int lane = lanes_number() == l;
     int ray = RAYS;
     while (w->next < t->actives && ray == RAYS) {
@@ -111,8 +47,7 @@ INLINE void take_up(const tile *t, walk *w, int l) {
     }
     put(&w->count, lane, none ? 0 : t->count[ray]);
     put(&w->last_piece, lane, none ? 0 : t->last_piece[ray]);
-    put(&w->i, lane, none ? 0 : t->from[ray][0]);
-    put(&w->end, lane, none ? -1 : t->to[ray][0]);
+    start_stretch(w, lane, none ? 0 : t->from[ray][0], none ? -1 : t->to[ray][0], kind);
     put(&w->taken, lane, 0);
     put(&w->state, lane, t->state[ray]);
     put(&w->lost[0], lane, 0);
@@ -127,25 +62,24 @@ typedef struct outcome {
 } outcome;
 
 /* Lane `l` is at the end of its stretch, or `over` with its ray. */
-INLINE void go_on(tile *t, walk *w, int l, bool over, bool dense, const outcome *o) {
+INLINE void go_on(tile *t, walk *w, int l, bool over, ang_cast_kind kind, bool dense, const outcome *o) {
     int r = o->ray[l], next = w->stretch[l] + 1;
     if (!over && next < t->stretches[r]) {
-        lanes_int lane = lanes_number() == l;
         w->stretch[l] = next;
-        put(&w->i, lane, t->from[r][next]);
-        put(&w->end, lane, t->to[r][next]);
+        start_stretch(w, lanes_number() == l, t->from[r][next], t->to[r][next], kind);
         return;
     }
     t->taken[r] += o->taken[l];
     t->state[r] = o->state[l];
     for (int c = 0; c < 3 && dense; c++) t->light[r][c] = o->light[c][l];
     if (over) t->begin[r] = t->end[r];
-    take_up(t, w, l);
+    take_up(t, w, l, kind);
 }
 
 /* Samples of each lane that are taken at once: the steps of one do not wait for those of another. */
 enum { AT_ONCE = 4 };
 
+/* Of steps as a whole `value` is what lies at their ends, `place` their middle. */
 typedef struct samples {
     lanes place[AT_ONCE][3], inside[AT_ONCE][3], piece[AT_ONCE], value[AT_ONCE];
     lanes_int counts[AT_ONCE]; /* within the stretch */
@@ -167,8 +101,60 @@ INLINE void take_samples(const ang_cast *cast, const walk *w, samples *s) {
     for (int k = 0; k < AT_ONCE; k++) s->value[k] = interpolate_at(&r, s->at[k], s->inside[k]);
 }
 
+/* Steps as a whole: what lies where each ends. */
+INLINE void take_ends(const ang_cast *cast, const walk *w, samples *s, bool phong) {
+    for (int k = 0; k < AT_ONCE; k++) {
+        lanes i = w->i + (float)k, middle = place_of(cast, i, w->count, w->last_piece, &s->piece[k]), place[3];
+        lanes along = end_of(cast, i, w->count, w->last_piece);
+        for (int axis = 0; axis < 3; axis++) {
+            place[axis] = w->start[axis] + along * w->direction[axis];
+            if (phong) s->place[k][axis] = w->start[axis] + middle * w->direction[axis];
+        }
+        spot at = find_spot(cast, place);
+        for (int axis = 0; axis < 3; axis++) s->inside[k][axis] = at.inside[axis];
+        lanes_store_int(s->at[k], at.at);
+        s->counts[k] = (i >= w->begin) & (i < w->end);
+        s->piece[k] = lanes_pick(s->counts[k], s->piece[k], lanes_all(0));
+    }
+    LANES_IN_MEMORY(s->at);
+    const rows r = rows_of(cast, cast->values);
+    for (int k = 0; k < AT_ONCE; k++) s->value[k] = interpolate_at(&r, s->at[k], s->inside[k]);
+}
+
+/* Opacity of the steps whose ends lie at the samples; returns which rays are over. */
+INLINE lanes_int add_steps(const ang_cast *cast, tile *t, walk *w, const samples *s, seen *noted, ang_cast_kind kind,
+                           uint64_t *shown) {
+    lanes opacity[AT_ONCE], from[AT_ONCE], to[AT_ONCE];
+    for (int k = 0; k < AT_ONCE; k++) {
+        step_end end = end_of_step(cast, cast->jumps ? settle(s->value[k]) : s->value[k]);
+        lanes depth = extinction_between(&w->at, &end) * s->piece[k], edge;
+        if (cast->plateaus) {
+            lanes_int opaque = meets_plateau(cast, &w->at.at, &end.at, &edge) & s->counts[k];
+            depth = lanes_pick(opaque, lanes_all(ANG_TABLE_OPAQUE), depth);
+        }
+        opacity[k] = opacity_of(cast, depth);
+        from[k] = w->at.at.x;
+        to[k] = end.at.x;
+        w->at = end;
+    }
+    lanes_int over = lanes_all_int(0);
+    for (int k = 0; k < AT_ONCE; k++) {
+        lanes added = (1 - w->state) * opacity[k];
+        added = lanes_pick(s->counts[k] & ~over, added, lanes_all(0));
+        w->taken -= lanes_float(s->counts[k] & ~over);
+        unsigned shows = lanes_bits(added > 0);
+        if (!shows) continue;
+        *shown += (unsigned)lanes_count(shows);
+        sight x = {added, from[k], to[k], s->piece[k], s->place[k]};
+        note_seen(cast, t, noted, shows, w->ray, &x, kind);
+        w->state += added;
+        over = w->state >= cast->termination;
+    }
+    return over;
+}
+
 /* Opacity of the samples, and their light where it is `dense`; returns which rays are over. */
-INLINE lanes_int add_opacity(const ang_cast *cast, tile *t, walk *w, const samples *s, seen *noted, bool phong,
+INLINE lanes_int add_opacity(const ang_cast *cast, tile *t, walk *w, const samples *s, seen *noted, ang_cast_kind kind,
                              bool dense, uint64_t *shown) {
     lanes opacity[AT_ONCE], colour[AT_ONCE][3];
     for (int k = 0; k < AT_ONCE; k++) {
@@ -188,9 +174,11 @@ INLINE lanes_int add_opacity(const ang_cast *cast, tile *t, walk *w, const sampl
         if (!shows) continue;
         *shown += (unsigned)lanes_count(shows);
         for (int c = 0; c < 3 && dense; c++) w->light[c] += added * colour[k][c];
-        if (!dense)
-            note_seen(cast, t, noted, shows, w->ray, added, cast->jumps ? settle(s->value[k]) : s->value[k],
-                      s->place[k], phong);
+        if (!dense) {
+            sight x = {.added = added, .place = s->place[k]};
+            x.value = cast->jumps ? settle(s->value[k]) : s->value[k];
+            note_seen(cast, t, noted, shows, w->ray, &x, kind);
+        }
         w->state += added;
         over = w->state >= cast->termination;
     }
@@ -241,15 +229,20 @@ INLINE lanes mean_of(const ang_cast *cast, const walk *w) {
 /* Follows the stretches of all active rays. `kind` and `dense` are constants; dense: most samples show, and are not
  * worth to be put off. */
 INLINE void follow(const ang_cast *cast, tile *t, seen *noted, ang_cast_kind kind, bool dense, uint64_t *shown) {
-    bool phong = kind == ANG_CAST_LIGHT_PHONG, mean = kind == ANG_CAST_MEAN || kind == ANG_CAST_MEAN_WEIGHTED;
+    bool mean = kind == ANG_CAST_MEAN || kind == ANG_CAST_MEAN_WEIGHTED;
     walk w = {.next = 0};
-    for (int l = 0; l < LANES; l++) take_up(t, &w, l);
+    for (int l = 0; l < LANES; l++) take_up(t, &w, l, kind);
     while (lanes_bits(w.ray != RAYS)) {
         samples s;
-        take_samples(cast, &w, &s);
         lanes_int over;
-        if (phong || kind == ANG_CAST_LIGHT)
-            over = add_opacity(cast, t, &w, &s, noted, phong, dense, shown);
+        if (is_whole(kind))
+            take_ends(cast, &w, &s, is_shaded(kind));
+        else
+            take_samples(cast, &w, &s);
+        if (is_whole(kind))
+            over = add_steps(cast, t, &w, &s, noted, kind, shown);
+        else if (is_light(kind))
+            over = add_opacity(cast, t, &w, &s, noted, kind, dense, shown);
         else
             over = add_values(cast, &w, &s, kind);
         w.i += AT_ONCE;
@@ -262,7 +255,7 @@ INLINE void follow(const ang_cast *cast, tile *t, seen *noted, ang_cast_kind kin
         for (int c = 0; c < 3 && dense; c++) lanes_store(o.light[c], w.light[c]);
         for (unsigned done = lanes_bits(over); ended; ended &= ended - 1) {
             int l = __builtin_ctz(ended);
-            go_on(t, &w, l, done >> l & 1, dense, &o);
+            go_on(t, &w, l, done >> l & 1, kind, dense, &o);
         }
     }
 }
@@ -339,7 +332,7 @@ INLINE void cast_rays(const ang_cast *cast, tile *t, ang_cast_kind kind, ang_cas
             follow(cast, t, &s, kind, false, &took->shown);
         keep_unfinished(t);
     }
-    if (kind == ANG_CAST_LIGHT || kind == ANG_CAST_LIGHT_PHONG) note_rest(cast, t, &s, kind == ANG_CAST_LIGHT_PHONG);
+    if (is_light(kind)) note_rest(cast, t, &s, kind);
     if (kind == ANG_CAST_SURFACE) find_surfaces(cast, t);
 }
 
@@ -353,6 +346,8 @@ static void put_pixel(const ang_cast *cast, const tile *t, int ray, size_t pixel
     switch (cast->kind) {
     case ANG_CAST_LIGHT:
     case ANG_CAST_LIGHT_PHONG:
+    case ANG_CAST_WHOLE:
+    case ANG_CAST_WHOLE_PHONG:
         memcpy(rgba, t->light[ray], 3 * sizeof *rgba);
         rgba[3] = t->state[ray];
         return;
@@ -370,39 +365,18 @@ static void put_pixel(const ang_cast *cast, const tile *t, int ray, size_t pixel
     rgba[3] = 1;
 }
 
-void CAST_TILE(const ang_cast *given, int x, int y, ang_cast_took *took) {
+/* The pixels of a tile. `kind` is a constant. */
+INLINE void cast_tile(const ang_cast *given, ang_cast_kind kind, int x, int y, ang_cast_took *took) {
     /* Of a copy the compiler knows that nothing else writes to it. */
     const ang_cast copy = *given, *cast = &copy;
     tile t;
     t.actives = 0;
-    static const float nothing[] = {[ANG_CAST_LOWEST] = 65535, [ANG_CAST_SURFACE] = -2};
+    float nothing = kind == ANG_CAST_LOWEST ? 65535 : kind == ANG_CAST_SURFACE ? -2 : 0;
     for (int ray = 0; ray < RAYS; ray += LANES) make_rays(cast, &t, x, y, ray);
     memset(t.taken, 0, sizeof t.taken);
     memset(t.light, 0, sizeof t.light);
-    for (int ray = 0; ray <= RAYS; ray++) t.state[ray] = nothing[cast->kind];
-    switch (cast->kind) {
-    case ANG_CAST_LIGHT:
-        cast_rays(cast, &t, ANG_CAST_LIGHT, took);
-        break;
-    case ANG_CAST_LIGHT_PHONG:
-        cast_rays(cast, &t, ANG_CAST_LIGHT_PHONG, took);
-        break;
-    case ANG_CAST_HIGHEST:
-        cast_rays(cast, &t, ANG_CAST_HIGHEST, took);
-        break;
-    case ANG_CAST_LOWEST:
-        cast_rays(cast, &t, ANG_CAST_LOWEST, took);
-        break;
-    case ANG_CAST_MEAN:
-        cast_rays(cast, &t, ANG_CAST_MEAN, took);
-        break;
-    case ANG_CAST_MEAN_WEIGHTED:
-        cast_rays(cast, &t, ANG_CAST_MEAN_WEIGHTED, took);
-        break;
-    case ANG_CAST_SURFACE:
-        cast_rays(cast, &t, ANG_CAST_SURFACE, took);
-        break;
-    }
+    for (int ray = 0; ray <= RAYS; ray++) t.state[ray] = nothing;
+    cast_rays(cast, &t, kind, took);
     for (int ray = 0; ray < RAYS; ray++) {
         int px = x + ray_x(ray), py = y + ray_y(ray);
         if (px >= cast->width || py >= cast->height) continue;
@@ -410,4 +384,30 @@ void CAST_TILE(const ang_cast *given, int x, int y, ang_cast_took *took) {
         took->samples += (uint64_t)t.taken[ray];
         took->rays += t.taken[ray] > 0;
     }
+}
+
+/* A function for each kind: compilers do worse on one large function (by a tenth, GCC 12). */
+#define TILE_OF(kind)                                                                                                  \
+    static __attribute__((noinline)) void tile_of_##kind(const ang_cast *cast, int x, int y, ang_cast_took *took) {    \
+        cast_tile(cast, kind, x, y, took);                                                                             \
+    }
+TILE_OF(ANG_CAST_LIGHT)
+TILE_OF(ANG_CAST_LIGHT_PHONG)
+TILE_OF(ANG_CAST_WHOLE)
+TILE_OF(ANG_CAST_WHOLE_PHONG)
+TILE_OF(ANG_CAST_HIGHEST)
+TILE_OF(ANG_CAST_LOWEST)
+TILE_OF(ANG_CAST_MEAN)
+TILE_OF(ANG_CAST_MEAN_WEIGHTED)
+TILE_OF(ANG_CAST_SURFACE)
+
+void CAST_TILE(const ang_cast *cast, int x, int y, ang_cast_took *took) {
+    static ang_cast_tile *const of_kind[] = {
+        [ANG_CAST_LIGHT] = tile_of_ANG_CAST_LIGHT,     [ANG_CAST_LIGHT_PHONG] = tile_of_ANG_CAST_LIGHT_PHONG,
+        [ANG_CAST_WHOLE] = tile_of_ANG_CAST_WHOLE,     [ANG_CAST_WHOLE_PHONG] = tile_of_ANG_CAST_WHOLE_PHONG,
+        [ANG_CAST_HIGHEST] = tile_of_ANG_CAST_HIGHEST, [ANG_CAST_LOWEST] = tile_of_ANG_CAST_LOWEST,
+        [ANG_CAST_MEAN] = tile_of_ANG_CAST_MEAN,       [ANG_CAST_MEAN_WEIGHTED] = tile_of_ANG_CAST_MEAN_WEIGHTED,
+        [ANG_CAST_SURFACE] = tile_of_ANG_CAST_SURFACE,
+    };
+    of_kind[cast->kind](cast, x, y, took);
 }

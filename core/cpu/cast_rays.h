@@ -15,6 +15,10 @@ enum {
 
 _Static_assert(1 << BLOCK_SHIFT == ANG_SKIP_BLOCK, "blocks are found by a shift");
 
+INLINE bool is_whole(ang_cast_kind kind) { return kind == ANG_CAST_WHOLE || kind == ANG_CAST_WHOLE_PHONG; }
+INLINE bool is_shaded(ang_cast_kind kind) { return kind == ANG_CAST_LIGHT_PHONG || kind == ANG_CAST_WHOLE_PHONG; }
+INLINE bool is_light(ang_cast_kind kind) { return kind == ANG_CAST_LIGHT || is_whole(kind) || is_shaded(kind); }
+
 /* Rays are numbered in squares of four by four, so that lanes hold neighbours. The ray RAYS is nobody's. Samples are
  * numbered along the lattice (DESIGN.md, "Samples"); an iso-surface looks at the entry, -1, and the exit too. */
 typedef struct tile {
@@ -132,6 +136,11 @@ INLINE lanes place_of(const ang_cast *cast, lanes i, lanes count, lanes last_pie
     return lanes_max(lanes_min(along, reach), lanes_all(0));
 }
 
+/* Where step `i` ends, mm from the entry; before the first one the entry. */
+INLINE lanes end_of(const ang_cast *cast, lanes i, lanes count, lanes last_piece) {
+    return lanes_pick(i + 1 < count, (i + 1) * cast->step, (count - 1) * cast->step + last_piece);
+}
+
 /* How a ray goes through blocks. */
 typedef struct stride {
     lanes rate[3];      /* samples from one voxel to the next, signed */
@@ -208,8 +217,10 @@ INLINE group make_group(const ang_cast *cast, const tile *t, int first) {
     return g;
 }
 
-INLINE void place_group(const ang_cast *cast, const group *g, lanes place[3], lanes_int cell[3]) {
+/* Where the rays' samples lie, or where their steps begin. */
+INLINE void place_group(const ang_cast *cast, const group *g, bool whole, lanes place[3], lanes_int cell[3]) {
     lanes piece, along = place_of(cast, g->i, g->samples, g->last_piece, &piece);
+    if (whole) along = g->i * cast->step;
     for (int axis = 0; axis < 3; axis++) place[axis] = g->start[axis] + along * g->direction[axis];
     spot at = find_spot(cast, place);
     for (int axis = 0; axis < 3; axis++) cell[axis] = at.cell[axis];
@@ -225,7 +236,7 @@ INLINE void find_peaks(const ang_cast *cast, tile *t, int first, ang_cast_kind k
     while (lanes_bits(g.active)) {
         lanes place[3];
         lanes_int cell[3];
-        place_group(cast, &g, place, cell);
+        place_group(cast, &g, false, place, cell);
         lanes_int range = lanes_ints(ranges->nodes, node_of(ranges->dims, shift, cell));
         lanes_int better = is_better(cast, kind, range, best) & g.active;
         lanes next = g.i + steps_out(cast, &g.stride, place, cell, shift, lanes_all_int(0));
@@ -253,7 +264,7 @@ INLINE void find_stretches(const ang_cast *cast, tile *t, int first, ang_cast_ki
     while (lanes_bits(g.active)) {
         lanes place[3];
         lanes_int cell[3], shift = lanes_all_int(BLOCK_SHIFT);
-        place_group(cast, &g, place, cell);
+        place_group(cast, &g, is_whole(kind), place, cell);
         lanes_int block = node_of(cast->blocks, shift, cell);
         lanes_int distance = lanes_bytes(cast->distance, block), shows = distance == 0;
         if (extreme) {
@@ -262,6 +273,13 @@ INLINE void find_stretches(const ang_cast *cast, tile *t, int first, ang_cast_ki
             lanes_int worth = is_better(cast, kind, range, best);
             shows &= worth & is_better(cast, kind, lanes_ints(fine->nodes, block), best);
             shift = lanes_pick_int(worth | (distance > 0), shift, coarse_shift);
+        }
+        lanes steps = steps_out(cast, &g.stride, place, cell, shift, distance + (distance > 0));
+        if (is_whole(kind)) {
+            /* Only those steps are passed over that also end among blocks that do not show. */
+            lanes_int crosses = (distance > 0) & (steps < 2);
+            steps = lanes_pick((distance > 0) & ~crosses, steps - 1, steps);
+            shows |= crosses;
         }
         shows &= g.active;
         lanes_int begins = shows & ~inside, ends = inside & ~shows & g.active;
@@ -274,8 +292,7 @@ INLINE void find_stretches(const ang_cast *cast, tile *t, int first, ang_cast_ki
         found -= ends;
         inside = lanes_pick_int(g.active, shows, inside);
         g.active &= found < STRETCHES;
-        lanes_int around = distance + (distance > 0);
-        g.i = lanes_pick(g.active, g.i + steps_out(cast, &g.stride, place, cell, shift, around), g.i);
+        g.i = lanes_pick(g.active, g.i + steps, g.i);
         g.active &= g.i < g.end;
     }
     for (int l = 0; l < g.count; l++) {

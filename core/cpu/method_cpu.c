@@ -4,6 +4,7 @@
 #include "core/base/clock.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "core/cpu/classifier.h"
 #include "core/render/facts.h"
 #include "core/scene/object_layer.h"
 #include "core/scene/objects.h"
@@ -20,10 +21,7 @@ struct ang_renderer {
     ang_cast_width width;
     uint16_t *wide;    /* the values, where the volume's rows are of one voxel */
     uint16_t *weights; /* made when a mean first needs them */
-    ang_table_cache table;
-    ang_stiffness stiffness; /* of the table's transfer function in the volume, where `measured` */
-    bool measured;
-    ang_classification classification;
+    ang_classifier classifier;
     ang_block_grid grid;
     ang_visibility gridded; /* what the grid was brought up to date for, where grid_current */
     bool grid_current;
@@ -37,6 +35,7 @@ typedef struct decision {
     ang_plan_facts facts;
     ang_plan_decisions plan;
     double step; /* mm */
+    bool whole;  /* steps are classified by all values between their ends */
 } decision;
 
 static bool uses(const decision *d, ang_part part) { return ang_plan_uses(&d->plan, part); }
@@ -45,7 +44,7 @@ static void destroy(ang_renderer *renderer) {
     if (!renderer) return;
     ang_object_layer_clear(&renderer->objects);
     ang_block_grid_clear(&renderer->grid);
-    ang_table_cache_clear(&renderer->table);
+    ang_classifier_clear(&renderer->classifier);
     free(renderer->weights);
     free(renderer->wide);
     free(renderer);
@@ -108,17 +107,6 @@ static bool prepare_weights(ang_renderer *renderer, const ang_scene *scene, int 
     return true;
 }
 
-/* Steps are classified by their middles, whatever the data ask for; where that may miss a peak the user is told. */
-static void classify(ang_renderer *renderer, const ang_scene *scene, double step) {
-    if (scene->mode != ANG_MODE_DVR) return;
-    if (!renderer->measured) {
-        renderer->stiffness = ang_stiffness_of(scene->transfer);
-        ang_stiffness_measure(&renderer->stiffness, renderer->volume);
-        renderer->measured = true;
-    }
-    renderer->classification = ang_classification_choose(ANG_CLASSIFY_MIDPOINT, &renderer->stiffness, step);
-}
-
 /* Which blocks show, where rays may skip those that do not. Another camera changes none of them. */
 static bool update_grid(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
     ang_block_grid *grid = &renderer->grid;
@@ -137,9 +125,27 @@ static bool update_grid(ang_renderer *renderer, const ang_render_options *option
     return true;
 }
 
-/* Decides as far as is known, builds what that takes, and decides again. */
-static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, decision *d,
-                   ang_error *err) {
+/* The tables of the transfer function, and how steps meet it. */
+static bool prepare_classifier(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                               bool warn, decision *d, ang_error *err) {
+    ang_classifier *classifier = &renderer->classifier;
+    bool made = false;
+    if (ang_scene_needs_table(scene) &&
+        !ang_classifier_update(classifier, scene->transfer, renderer->volume, &made, err))
+        return false;
+    if (made) renderer->grid_current = false;
+    if (scene->mode != ANG_MODE_DVR) return true;
+    if (!ang_classifier_choose(classifier, scene->transfer, renderer->volume, options->classification, d->step, warn,
+                               err))
+        return false;
+    d->whole = classifier->classification.prefix;
+    return true;
+}
+
+/* Decides as far as is known, builds what that takes, and decides again. `warn`: whether mid-points may miss something
+ * is of interest. */
+static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, bool warn,
+                   decision *d, ang_error *err) {
     const ang_volume *volume = renderer->volume;
     *d = (decision){.step = 0};
     renderer->grid.build_ms = 0;
@@ -149,17 +155,15 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     if (!ang_scene_check(scene, err) || !ang_ray_frame_make(volume, scene, &d->frame, err)) return false;
     d->step = fmax(options->step_voxels * ang_volume_smallest_spacing(volume),
                    2 * ang_volume_half_diagonal(volume) / most_samples);
-    bool made = false;
-    if (ang_scene_needs_table(scene) &&
-        !ang_table_cache_update(&renderer->table, scene->transfer, volume, 0, &made, err))
-        return false;
-    if (made) renderer->measured = renderer->grid_current = false;
+    if (!prepare_classifier(renderer, scene, options, warn, d, err)) return false;
     if (!prepare_weights(renderer, scene, options->threads, err)) return false;
     if (scene->objects && !ang_object_layer_make(&renderer->objects, volume, scene, &d->frame, options->threads, err))
         return false;
-    d->visibility = ang_visibility_make(volume, scene, renderer->table.tables);
-    d->facts =
-        ang_facts_make(ANG_DRAW_LANES, NULL, volume, scene, options, &d->frame, &renderer->table, 1.01 * d->step);
+    d->visibility = ang_visibility_make(volume, scene, renderer->classifier.table.tables);
+    d->facts = ang_facts_make(ANG_DRAW_LANES, NULL, volume, scene, options, &d->frame, &renderer->classifier.table,
+                              1.01 * d->step);
+    d->facts.whole_steps = d->whole;
+    if (d->whole) d->facts.extinction = ang_classifier_greatest(&renderer->classifier);
     d->plan = ang_plan_decide(&d->facts);
     d->frame.cuts = uses(d, ANG_PART_CLIP_PLANE);
     if (uses(d, ANG_PART_SKIPPING) && !update_grid(renderer, options, d, err)) return false;
@@ -180,7 +184,9 @@ static ang_cast_kind choose_kind(const ang_scene *scene, const ang_volume *volum
     case ANG_MODE_DVR:
         break;
     }
-    return uses(d, ANG_PART_GRADIENTS) ? ANG_CAST_LIGHT_PHONG : ANG_CAST_LIGHT;
+    bool shaded = uses(d, ANG_PART_GRADIENTS);
+    if (d->whole) return shaded ? ANG_CAST_WHOLE_PHONG : ANG_CAST_WHOLE;
+    return shaded ? ANG_CAST_LIGHT_PHONG : ANG_CAST_LIGHT;
 }
 
 static void set_volume(ang_cast *cast, const ang_renderer *renderer) {
@@ -215,13 +221,18 @@ static void set_grid(ang_cast *cast, const ang_renderer *renderer, const decisio
 }
 
 static void set_table(ang_cast *cast, const ang_renderer *renderer, const decision *d) {
-    const ang_table_cache *table = &renderer->table;
+    const ang_table_cache *table = &renderer->classifier.table;
     if (!table->tables) return;
     cast->entries = table->tables->entries;
     cast->extinctions = table->extinctions;
     cast->first = (float)table->tables->first;
     cast->per_value = (float)table->tables->per_value;
     cast->intervals = table->tables->intervals;
+    if (d->whole) {
+        cast->steps = renderer->classifier.steps;
+        cast->integrals = renderer->classifier.prefix->sums;
+        cast->plateaus = renderer->classifier.prefix->plateaus;
+    }
     cast->jumps = uses(d, ANG_PART_ROUNDING);
     cast->thin = !uses(d, ANG_PART_EXPONENTIAL);
     cast->one_colour = !uses(d, ANG_PART_COLOUR);
@@ -308,8 +319,7 @@ static void draw_tiles(void *context, size_t begin, size_t end, int worker) {
 static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_image *image,
                    ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
     decision d;
-    if (!decide(renderer, scene, options, &d, err)) return false;
-    if (stats) classify(renderer, scene, d.step);
+    if (!decide(renderer, scene, options, stats != NULL, &d, err)) return false;
     ang_cast cast = make_cast(renderer, scene, options, &d, image);
     cast.counts = stats ? stats->counts : NULL;
     size_t columns = ((size_t)scene->width + ANG_CAST_TILE - 1) / ANG_CAST_TILE;
@@ -320,7 +330,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     ang_parallel_for(job.tiles, progress ? 1 : 4, options->threads, draw_tiles, &job);
     if (job.cancelled) return ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering");
     if (scene->objects) ang_object_layer_join(&renderer->objects, scene, image);
-    bool light = scene->mode == ANG_MODE_DVR, misses = light && renderer->classification.may_miss;
+    const ang_classification *how = scene->mode == ANG_MODE_DVR ? &renderer->classifier.classification : NULL;
     ang_cast_took took = {0};
     for (int i = 0; i < ANG_MAX_THREADS; i++) {
         took.samples += job.worker[i].took.samples;
@@ -334,8 +344,10 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
                                    .bricks_drawn = cast.skips ? renderer->grid.visible_blocks : 1,
                                    .bricks_total = cast.skips ? renderer->grid.blocks : 1,
                                    .passes = 1,
-                                   .classification = light ? ANG_CLASSIFY_MIDPOINT : ANG_CLASSIFY_AUTO,
-                                   .note = misses ? renderer->classification.warning : NULL,
+                                   .classification = !how          ? ANG_CLASSIFY_AUTO
+                                                     : how->prefix ? ANG_CLASSIFY_PREFIX
+                                                                   : ANG_CLASSIFY_MIDPOINT,
+                                   .note = how && how->may_miss ? how->warning : NULL,
                                    .octree_ms = renderer->grid.build_ms};
     return true;
 }
@@ -343,7 +355,7 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
 static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options, ang_plan *plan,
                     ang_error *err) {
     decision d;
-    if (!decide(renderer, scene, options, &d, err)) return false;
+    if (!decide(renderer, scene, options, true, &d, err)) return false;
     ang_plan_use(plan, "%s, %d threads", renderer->width.name, ang_thread_count(options->threads));
     ang_plan_use(plan, "the volume as it lies in memory");
     const ang_block_grid *grid = &renderer->grid;
@@ -355,12 +367,9 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
             ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s",
                                grid->blocks - grid->visible_blocks, grid->blocks, ang_visibility_reason(scene->mode));
     }
-    classify(renderer, scene, d.step);
-    if (scene->mode == ANG_MODE_DVR) {
-        ang_plan_use(plan, "mid-point classification");
-        ang_plan_leave_out(plan, "prefix-integrated classification", "this method has none%s",
-                           renderer->classification.may_miss ? ", though a peak may be missed" : "");
-    }
+    if (scene->mode == ANG_MODE_DVR)
+        ang_classification_explain(&renderer->classifier.classification,
+                                   d.whole && renderer->classifier.prefix->plateaus, plan);
     ang_scene_explain(plan, scene, renderer->volume, &d.plan);
     return true;
 }
@@ -369,7 +378,7 @@ const ang_method ang_method_cpu = {
     .name = "cpu",
     .title = "rays on the processor, in SIMD on all cores, skipping what shows nothing",
     .source = "DESIGN.md, Rendering methods; numerics.md",
-    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_NO_SKIP,
+    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_NO_SKIP | ANG_TAKES_CLASSIFICATION,
     .splits = true,
     .create = create,
     .render = render,

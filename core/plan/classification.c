@@ -216,3 +216,14 @@ ang_classification ang_classification_choose(ang_classify wanted, const ang_stif
                  peak->low, peak->high, peak->change * step);
     return c;
 }
+
+void ang_classification_explain(const ang_classification *classification, bool plateaus, ang_plan *plan) {
+    if (!classification->prefix) {
+        ang_plan_use(plan, "mid-point classification");
+        ang_plan_leave_out(plan, "prefix-integrated classification", "%s%s", classification->why,
+                           classification->may_miss ? ", though a peak may be missed" : "");
+        return;
+    }
+    ang_plan_use(plan, "prefix-integrated classification: %s", classification->why);
+    if (!plateaus) ang_plan_leave_out(plan, "plateaus at opacity 1", "the transfer function has none");
+}

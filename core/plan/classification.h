@@ -3,6 +3,7 @@
 #ifndef ANG_PLAN_CLASSIFICATION_H
 #define ANG_PLAN_CLASSIFICATION_H
 
+#include "core/plan/plan.h"
 #include "core/transfer/transfer.h"
 #include "core/volume/volume.h"
 
@@ -51,5 +52,7 @@ typedef struct ang_classification {
  * Pure.
  */
 ang_classification ang_classification_choose(ang_classify wanted, const ang_stiffness *stiffness, double step);
+/* Adds to `plan` how steps are classified and why; `plateaus`: the prefix integrals have some. */
+void ang_classification_explain(const ang_classification *classification, bool plateaus, ang_plan *plan);
 
 #endif

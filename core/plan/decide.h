@@ -60,7 +60,7 @@ typedef struct ang_drawing_facts {
     bool asks_passes; /* or only rays in passes */
     bool software;    /* OpenGL runs on the processor */
     bool lanes;       /* the ray caster on the processor can hold the volume */
-    bool lanes_do;    /* and takes all options that are given, and what the data ask for */
+    bool lanes_do;    /* and takes all options that are given */
 } ang_drawing_facts;
 
 /* The way to draw, where neither an error nor a time is asked for; `why` becomes the reason. Pure. */

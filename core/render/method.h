@@ -107,15 +107,15 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
 const ang_method *const *ang_methods(void);
 const ang_method *ang_method_find(const char *name);
 
-/* The method for --method auto: cpu where there is no OpenGL or it is software, as long as its options and the data
- * ask for nothing else; slicing where the volume does not fit into one texture or the
+/* The method for --method auto: cpu where there is no OpenGL or it is software, as long as its options ask
+ * for nothing else; slicing where the volume does not fit into one texture or the
  * budget; slicing or raycast where an option asks for them; else envelope, which takes the fewest samples. `why`
  * becomes the reason. */
 const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const ang_scene *scene,
                                     const ang_render_options *options, const char **why);
 /* The same before there is a context, where no GPU answers: NULL where OpenGL in software is wanted. */
-const ang_method *ang_method_choose_without_gl(const ang_volume *volume, const ang_scene *scene,
-                                               const ang_render_options *options, const char **why);
+const ang_method *ang_method_choose_without_gl(const ang_volume *volume, const ang_render_options *options,
+                                               const char **why);
 
 extern const ang_method ang_method_cpu;
 extern const ang_method ang_method_reference;

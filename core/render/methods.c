@@ -42,25 +42,15 @@ unsigned ang_method_ignores(const ang_method *method, const ang_render_options *
     return given & ~method->takes;
 }
 
-/* Whether samples may pass what the transfer function does between them. */
-static bool needs_whole_steps(const ang_volume *volume, const ang_scene *scene, const ang_render_options *options) {
-    if (scene->mode != ANG_MODE_DVR || !scene->transfer) return false;
-    ang_stiffness stiffness = ang_stiffness_of(scene->transfer);
-    ang_stiffness_measure(&stiffness, volume);
-    double step = options->step_voxels * ang_volume_smallest_spacing(volume);
-    return ang_classification_choose(options->classification, &stiffness, step).prefix;
-}
-
 /* Whether the ray caster on the processor can hold the volume and takes what is asked of it. */
-static bool lanes_do(const ang_volume *volume, const ang_scene *scene, const ang_render_options *options) {
-    return ang_volume_count(volume) <= INT32_MAX && !ang_method_ignores(&ang_method_cpu, options) &&
-           !needs_whole_steps(volume, scene, options);
+static bool lanes_do(const ang_volume *volume, const ang_render_options *options) {
+    return ang_volume_count(volume) <= INT32_MAX && !ang_method_ignores(&ang_method_cpu, options);
 }
 
-const ang_method *ang_method_choose_without_gl(const ang_volume *volume, const ang_scene *scene,
-                                               const ang_render_options *options, const char **why) {
+const ang_method *ang_method_choose_without_gl(const ang_volume *volume, const ang_render_options *options,
+                                               const char **why) {
     ang_drawing_facts facts = {.gl = true, .software = true, .lanes = ang_volume_count(volume) <= INT32_MAX};
-    facts.lanes_do = lanes_do(volume, scene, options);
+    facts.lanes_do = lanes_do(volume, options);
     return ang_plan_drawing(&facts, why) == ANG_DRAW_LANES ? &ang_method_cpu : NULL;
 }
 
@@ -82,6 +72,6 @@ const ang_method *ang_method_choose(ang_gl *gl, const ang_volume *volume, const 
                                .asks_passes = options->separate_passes || steps,
                                .software = gl && ang_gl_is_software(gl),
                                .lanes = ang_volume_count(volume) <= INT32_MAX};
-    facts.lanes_do = facts.software && lanes_do(volume, scene, options);
+    facts.lanes_do = facts.software && lanes_do(volume, options);
     return by_drawing[ang_plan_drawing(&facts, why)];
 }

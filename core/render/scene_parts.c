@@ -24,17 +24,8 @@ int ang_scene_step_lookups(const ang_scene *scene, const ang_table_texture *tabl
 }
 
 void ang_scene_explain_steps(ang_plan *plan, const ang_scene *scene, const ang_table_texture *table) {
-    const char *why = table->classification.why;
-    if (scene->mode != ANG_MODE_DVR) return;
-    if (!table->classification.prefix) {
-        ang_plan_use(plan, "mid-point classification");
-        ang_plan_leave_out(plan, "prefix-integrated classification", "%s%s", why,
-                           table->classification.may_miss ? ", though a peak may be missed" : "");
-        return;
-    }
-    ang_plan_use(plan, "prefix-integrated classification: %s", why);
-    if (!table->prefix.plateaus.texture)
-        ang_plan_leave_out(plan, "plateaus at opacity 1", "the transfer function has none");
+    if (scene->mode == ANG_MODE_DVR)
+        ang_classification_explain(&table->classification, table->prefix.plateaus.texture != 0, plan);
 }
 
 void ang_parts_field(ang_shader_source *source, ang_field_kind kind) {

@@ -31,24 +31,37 @@ static ang_image cast(ang_renderer *renderer, const ang_scene *scene, const ang_
     return draw(&ang_method_cpu, renderer, scene, options, NULL);
 }
 
-/* Calls `check` with every scene in every mode, shaded and not, at three steps. */
+/* Calls `check` with every scene in every mode, in dvr shaded and not and with both classifications, at three steps. */
 typedef void scene_check(void *context, const ang_scene *scene, const ang_render_options *options, const char *what);
 static void every_scene(const ang_volume *volume, const ang_transfer *transfer, scene_check *check, void *context) {
     static const double steps[] = {0.11, 0.5, 1.9};
     for (int which = 0; which < SCENES; which++)
         for (int mode = ANG_MODE_DVR; mode <= ANG_MODE_ISO; mode++)
-            for (int shading = 0; shading < (mode == ANG_MODE_DVR ? 2 : 1); shading++)
+            for (int way = 0; way < (mode == ANG_MODE_DVR ? 4 : 1); way++)
                 for (int step = 0; step < 3; step++) {
                     char what[64];
                     ang_scene scene = make_scene(which, volume, transfer);
                     scene.mode = (ang_mode)mode;
-                    scene.shading = (ang_shading)shading;
+                    scene.shading = way % 2 ? ANG_SHADING_PHONG : ANG_SHADING_NONE;
                     ang_render_options options = exact;
                     options.step_voxels = steps[step];
-                    snprintf(what, sizeof what, "scene %d, %s %s, step %g", which, ang_mode_name(scene.mode),
-                             ang_shading_name(scene.shading), steps[step]);
+                    options.classification = way / 2 ? ANG_CLASSIFY_PREFIX : ANG_CLASSIFY_MIDPOINT;
+                    snprintf(what, sizeof what, "scene %d, %s %s %s, step %g", which, ang_mode_name(scene.mode),
+                             ang_shading_name(scene.shading), ang_classify_name(options.classification), steps[step]);
                     check(context, &scene, &options, what);
                 }
+}
+
+/* All that steps as a whole have to do with: colours that jump, a peak narrower than a voxel's change, a plateau at
+ * opacity 1 behind something clear. */
+static ang_transfer *stiff(void) {
+    static const ang_transfer_point points[] = {
+        {.hu = 150, .colour = {0.6, 0.1, 0.05}, .opacity = 0},  {.hu = 220, .colour = {0.9, 0.4, 0.2}, .opacity = 0.15},
+        {.hu = 220, .colour = {0.2, 0.4, 0.9}, .opacity = 0},   {.hu = 300, .colour = {0.2, 0.4, 0.9}, .opacity = 0},
+        {.hu = 302, .colour = {0.1, 0.9, 0.2}, .opacity = 0.7}, {.hu = 304, .colour = {0.2, 0.4, 0.9}, .opacity = 0.05},
+        {.hu = 450, .colour = {1, 0.95, 0.9}, .opacity = 0.1},  {.hu = 450, .colour = {1, 0.8, 0.7}, .opacity = 1},
+        {.hu = 520, .colour = {0.7, 0.8, 1}, .opacity = 1},     {.hu = 520, .colour = {1, 0.95, 0.9}, .opacity = 0.3}};
+    return ang_transfer_create(points, sizeof points / sizeof *points, 1, false, NULL, NULL);
 }
 
 typedef struct pair {
@@ -119,11 +132,13 @@ static void widths_and_skipping_change_no_bit(void **state) {
     ang_volume *volume = sheared_volume(sparse_value);
     for (size_t i = 0; i < ang_volume_count(volume); i++)
         if (i % 44 < 18) volume->data[i] = 900;
-    ang_transfer *transfer = vessels();
-    ang_renderer *renderer = open_renderer(&ang_method_cpu, NULL, volume);
-    every_scene(volume, transfer, is_the_same_however, renderer);
-    ang_method_cpu.destroy(renderer);
-    ang_transfer_free(transfer);
+    for (int kind = 0; kind < 2; kind++) {
+        ang_transfer *transfer = kind ? stiff() : vessels();
+        ang_renderer *renderer = open_renderer(&ang_method_cpu, NULL, volume);
+        every_scene(volume, transfer, is_the_same_however, renderer);
+        ang_method_cpu.destroy(renderer);
+        ang_transfer_free(transfer);
+    }
     ang_volume_free(volume);
 }
 

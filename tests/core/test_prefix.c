@@ -85,7 +85,7 @@ static void check_opacity(ang_gl *gl, const ang_volume *volume, const ang_transf
                           double slope, double tolerance) {
     static const double steps[] = {0.21, 0.5, 1.7, 6};
     for (const ang_method *const *method = ang_methods(); *method; method++) {
-        if (!(*method)->needs_gl) continue;
+        if (!((*method)->takes & ANG_TAKES_CLASSIFICATION)) continue;
         drawer d = open_drawer(gl, *method, volume);
         for (int which = 0; which < 3; which++)
             for (size_t k = 0; k < sizeof steps / sizeof *steps; k++) {
@@ -139,7 +139,7 @@ static void a_spike_on_a_ramp(void **state) {
     ang_transfer *transfer = ang_transfer_create(points, 5, 1, true, NULL, NULL);
     check_opacity(gl, volume, transfer, -1024, 4369, 1e-4);
     for (const ang_method *const *method = ang_methods(); *method; method++) {
-        if (!(*method)->needs_gl) continue;
+        if (!((*method)->takes & ANG_TAKES_CLASSIFICATION)) continue;
         drawer d = open_drawer(gl, *method, volume);
         ang_scene scene = make_scene(1, volume, transfer);
         ang_view view = ang_view_default;
@@ -181,7 +181,7 @@ static void opacity_one_at_one_value(void **state) {
                                              {.hu = 200, .colour = {0, 0, 1}, .opacity = veil}};
         ang_transfer *transfer = ang_transfer_create(points, 6, 1, false, NULL, NULL);
         for (const ang_method *const *method = ang_methods(); *method; method++) {
-            if (!(*method)->needs_gl) continue;
+            if (!((*method)->takes & ANG_TAKES_CLASSIFICATION)) continue;
             drawer d = open_drawer(gl, *method, volume);
             static const char *const views[] = {"anterior", "posterior", "30,10", "190,-15"};
             for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
@@ -291,6 +291,7 @@ static void skipping_changes_nothing(void **state) {
     drawer envelope = open_drawer(gl, &ang_method_envelope, volume);
     drawer raycast = open_drawer(gl, &ang_method_raycast, volume);
     drawer slicing = open_drawer(gl, &ang_method_slicing, volume);
+    drawer cpu = open_drawer(gl, &ang_method_cpu, volume);
     static const double steps[] = {0.11, 0.5, 3.3, 12};
     for (int which = 0; which < SCENES; which++)
         for (int kind = 0; kind < KINDS; kind++)
@@ -327,6 +328,9 @@ static void skipping_changes_nothing(void **state) {
                 options = prefix;
                 options.step_voxels = steps[k];
                 whole.pass_steps = 0;
+                truth = draw(&cpu, &scene, &whole, NULL);
+                check_same(what, &cpu, &scene, &options, &truth, true);
+                ang_image_clear(&truth);
                 whole.bricks[0] = whole.bricks[1] = whole.bricks[2] = 1;
                 truth = draw(&slicing, &scene, &whole, NULL);
                 check_same(what, &slicing, &scene, &options, &truth, steps[k] < 1);
@@ -335,8 +339,8 @@ static void skipping_changes_nothing(void **state) {
                 ang_image_clear(&truth);
                 ang_transfer_free(transfer);
             }
-    drawer *all[] = {&singlepass, &envelope, &raycast, &slicing};
-    for (int i = 0; i < 4; i++) all[i]->method->destroy(all[i]->renderer);
+    drawer *all[] = {&singlepass, &envelope, &raycast, &slicing, &cpu};
+    for (int i = 0; i < 5; i++) all[i]->method->destroy(all[i]->renderer);
     ang_volume_free(volume);
 }
 
@@ -385,7 +389,7 @@ static void errors_beside_the_mid_point(void **state) {
         scene.height = 32;
         ang_image exact = draw(&truth, &scene, &prefix, NULL);
         for (const ang_method *const *method = ang_methods(); *method; method++) {
-            if (!(*method)->needs_gl) continue;
+            if (!((*method)->takes & ANG_TAKES_CLASSIFICATION)) continue;
             drawer d = open_drawer(gl, *method, volume);
             double rms[2][2];
             for (int wanted = ANG_CLASSIFY_MIDPOINT; wanted <= ANG_CLASSIFY_PREFIX; wanted++)
