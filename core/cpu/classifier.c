@@ -49,7 +49,9 @@ bool ang_classifier_choose(ang_classifier *classifier, const ang_transfer *trans
     bool asks_data = wanted == ANG_CLASSIFY_AUTO || (wanted == ANG_CLASSIFY_MIDPOINT && wants_warning);
     if (!classifier->measured && asks_data) {
         classifier->stiffness = ang_stiffness_of(transfer);
-        ang_stiffness_measure(&classifier->stiffness, volume);
+        bool asks_volume = classifier->stiffness.count > 0 && !classifier->neighbours.stored;
+        if (asks_volume && !ang_neighbours_take(&classifier->neighbours, volume, err)) return false;
+        ang_stiffness_measure_in(&classifier->stiffness, &classifier->neighbours, volume);
         classifier->measured = true;
     }
     static const ang_stiffness unknown = {.count = 0};
@@ -66,5 +68,6 @@ double ang_classifier_greatest(const ang_classifier *classifier) {
 void ang_classifier_clear(ang_classifier *classifier) {
     drop_prefix(classifier);
     ang_table_cache_clear(&classifier->table);
+    ang_neighbours_clear(&classifier->neighbours);
     *classifier = (ang_classifier){0};
 }

@@ -12,6 +12,7 @@ typedef struct ang_classifier {
     ang_table_cache table;
     ang_stiffness stiffness; /* of the transfer function in the volume, where `measured` */
     bool measured;
+    ang_neighbours neighbours;         /* of the volume, taken when first asked for */
     ang_classification classification; /* of the last ang_classifier_choose */
     ang_prefix *prefix;                /* with `steps`: made when first used, else NULL */
     float *steps; /* (intervals + 3) * 4: of interval i - 1, where the first and those behind the last stand for what

@@ -1,5 +1,7 @@
 #include "core/plan/classification.h"
 
+#include "core/base/memory.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -121,35 +123,50 @@ static void add_pair(const ang_stiffness *s, double lowest, double highest, unsi
         if (high >= s->place[i].low && low <= s->place[i].high) classes[i][class_of((high - low) / mm)]++;
 }
 
-/* The voxels 0, stride, 2 stride, ... and their neighbours; their places are carried along, since to divide takes
- * longer than the rest. */
-static void add_voxels(const ang_stiffness *s, const ang_volume *volume, const double mm[3],
-                       unsigned (*classes)[CLASSES]) {
-    double lowest = INFINITY, highest = -INFINITY;
-    for (int i = 0; i < s->count; i++) {
-        lowest = fmin(lowest, s->place[i].low);
-        highest = fmax(highest, s->place[i].high);
-    }
+/* The voxels 0, stride, 2 stride, ...; their places are carried along, since to divide takes longer than the rest. */
+bool ang_neighbours_take(ang_neighbours *neighbours, const ang_volume *volume, ang_error *err) {
     enum { AHEAD = 8 }; /* voxels, fetched while others are looked at */
     size_t count = ang_volume_count(volume), stride = count / MOST_VOXELS | 1;
     size_t dims[3] = {(size_t)volume->dims[0], (size_t)volume->dims[1], (size_t)volume->dims[2]}, at[3] = {0, 0, 0};
     const size_t step[3] = {1, dims[0], dims[0] * dims[1]};
     const size_t move[3] = {stride % dims[0], stride / dims[0] % dims[1], stride / dims[0] / dims[1]};
+    *neighbours = (ang_neighbours){
+        .stored = ang_alloc((count + stride - 1) / stride, sizeof *neighbours->stored, "neighbouring voxels", err)};
+    if (!neighbours->stored) return false;
     for (size_t i = 0; i < count; i += stride) {
         if (i + AHEAD * stride + step[2] < count)
             for (int axis = 1; axis < 3; axis++)
                 __builtin_prefetch(&volume->data[i + AHEAD * stride + (axis > 1 ? step[2] : 0)]);
-        double here = ang_volume_hu(volume, volume->data[i]);
-        for (int axis = 0; axis < 3; axis++)
-            if (at[axis] + 1 < dims[axis])
-                add_pair(s, lowest, highest, classes, here, ang_volume_hu(volume, volume->data[i + step[axis]]),
-                         mm[axis]);
+        uint16_t *stored = neighbours->stored[neighbours->count++];
+        stored[0] = volume->data[i];
         size_t carry = 0;
         for (int axis = 0; axis < 3; axis++) {
+            stored[axis + 1] = volume->data[at[axis] + 1 < dims[axis] ? i + step[axis] : i];
             at[axis] += move[axis] + carry;
             carry = at[axis] >= dims[axis];
             at[axis] -= carry * dims[axis];
         }
+    }
+    return true;
+}
+
+void ang_neighbours_clear(ang_neighbours *neighbours) {
+    free(neighbours->stored);
+    *neighbours = (ang_neighbours){0};
+}
+
+static void add_voxels(const ang_stiffness *s, const ang_neighbours *neighbours, const ang_volume *volume,
+                       const double mm[3], unsigned (*classes)[CLASSES]) {
+    double lowest = INFINITY, highest = -INFINITY;
+    for (int i = 0; i < s->count; i++) {
+        lowest = fmin(lowest, s->place[i].low);
+        highest = fmax(highest, s->place[i].high);
+    }
+    for (size_t i = 0; i < neighbours->count; i++) {
+        const uint16_t *stored = neighbours->stored[i];
+        double here = ang_volume_hu(volume, stored[0]);
+        for (int axis = 0; axis < 3; axis++)
+            add_pair(s, lowest, highest, classes, here, ang_volume_hu(volume, stored[axis + 1]), mm[axis]);
     }
 }
 
@@ -162,7 +179,7 @@ static double median_of(const unsigned classes[CLASSES]) {
     return exp2((k + 0.5) / 12 - 20);
 }
 
-void ang_stiffness_measure(ang_stiffness *stiffness, const ang_volume *volume) {
+void ang_stiffness_measure_in(ang_stiffness *stiffness, const ang_neighbours *neighbours, const ang_volume *volume) {
     if (stiffness->count == 0) return;
     unsigned(*classes)[CLASSES] = calloc((size_t)stiffness->count, sizeof *classes);
     for (int i = 0; i < stiffness->count; i++) stiffness->place[i].change = 0;
@@ -172,9 +189,16 @@ void ang_stiffness_measure(ang_stiffness *stiffness, const ang_volume *volume) {
         mm[axis] = sqrt(volume->affine.m[0][axis] * volume->affine.m[0][axis] +
                         volume->affine.m[1][axis] * volume->affine.m[1][axis] +
                         volume->affine.m[2][axis] * volume->affine.m[2][axis]);
-    add_voxels(stiffness, volume, mm, classes);
+    add_voxels(stiffness, neighbours, volume, mm, classes);
     for (int i = 0; i < stiffness->count; i++) stiffness->place[i].change = median_of(classes[i]);
     free(classes);
+}
+
+void ang_stiffness_measure(ang_stiffness *stiffness, const ang_volume *volume) {
+    ang_neighbours neighbours = {0};
+    if (stiffness->count > 0) ang_neighbours_take(&neighbours, volume, NULL);
+    ang_stiffness_measure_in(stiffness, &neighbours, volume);
+    ang_neighbours_clear(&neighbours);
 }
 
 /* How often a step's width goes into what the data change from sample to sample: above 1 they pass it unseen. */

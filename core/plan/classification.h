@@ -34,7 +34,20 @@ typedef struct ang_stiffness {
  * than a tenth of opacity or colour are no steps; of less than a level, or than a quarter of what they lead to, no
  * peaks. Pure. */
 ang_stiffness ang_stiffness_of(const ang_transfer *transfer);
-/* Fills in `change` from neighbouring voxels, of which it looks at some hundred thousand at most. */
+
+/* Some hundred thousand voxels at most, spread over a volume, each with its neighbours: what is looked at again with
+ * every transfer function. */
+typedef struct ang_neighbours {
+    size_t count;
+    uint16_t (*stored)[4]; /* a voxel and its neighbour along each axis; at the border itself */
+} ang_neighbours;
+/* False with ANG_LIMIT. Free with ang_neighbours_clear. */
+bool ang_neighbours_take(ang_neighbours *neighbours, const ang_volume *volume, ang_error *err);
+void ang_neighbours_clear(ang_neighbours *neighbours);
+
+/* Fills in `change` from the neighbours of the same volume. */
+void ang_stiffness_measure_in(ang_stiffness *stiffness, const ang_neighbours *neighbours, const ang_volume *volume);
+/* The same from neighbours taken for this once; where there is no memory for them, as if nothing were passed. */
 void ang_stiffness_measure(ang_stiffness *stiffness, const ang_volume *volume);
 
 /* Steps as wide as this share of what the data change from one sample to the next are as good as sudden. */
