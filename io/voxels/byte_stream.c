@@ -74,12 +74,11 @@ static bool check_part(const ang_byte_parts *parts, const ang_byte_part *part, c
                        ang_error *err) {
     const char *name = ang_base_name(part->path);
     struct stat status;
-    FILE *file = stat(part->path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(part->path, "rb") : NULL;
-    if (!file && errno == ENOENT && strcmp(name, label) != 0)
+    if (stat(part->path, &status) != 0 && errno == ENOENT && strcmp(name, label) != 0)
         return ang_fail(err, ANG_INPUT, "%s: its voxels should be in %s, which does not exist", label, name);
-    if (!file)
-        return ang_fail(err, ANG_INPUT, "%s: %s", name,
-                        S_ISREG(status.st_mode) ? strerror(errno) : "is no regular file");
+    errno = 0;
+    FILE *file = stat(part->path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(part->path, "rb") : NULL;
+    if (!file) return ang_fail(err, ANG_INPUT, "%s: %s", name, errno ? strerror(errno) : "is no regular file");
     double most = most_packed(parts, file), size = (double)status.st_size - (double)part->offset;
     fclose(file);
     /* The last number of a text needs no blank. */
