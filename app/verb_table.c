@@ -1,16 +1,22 @@
 #include "app/verb_table.h"
 
+/* What PATH may be: docs/formats.md. */
+#define INPUTS                                                                                                         \
+    "PATH is a folder or file of DICOM, or NIfTI-1, NRRD, MetaImage, a folder of numbered PNG or TIFF pictures, a "    \
+    "TIFF of many pages, a raw volume, or a zip archive of any of these."
+
 const ang_verb_entry ang_verb_table[] = {
     {"view", ANG_VERB_VIEW, "[view] [PATH...] [options]", "a window with slices and volume rendering",
      "Opens a window with three linked slices and a volume rendering of what is in PATH, or a browser of files without "
-     "one. F1 lists its keys. The verb may be left out.",
+     "one. F1 lists its keys. The verb may be left out. " INPUTS,
      NULL, true},
     {"info", ANG_VERB_INFO, "info PATH [options]", "what is in a folder or file, and what was assumed",
-     "Lists the series in PATH, and for the one chosen its geometry and every assumption and warning of loading it.",
+     "Lists the series in PATH, and for the one chosen its geometry and every assumption and warning of loading "
+     "it. " INPUTS,
      NULL, true},
     {"render", ANG_VERB_RENDER, "render PATH -o OUT.png [options]", "a picture of a volume",
-     "Writes a picture of a volume, or several. Needs no display, and OpenGL only for the methods that use it.", NULL,
-     true},
+     "Writes a picture of a volume, or several. Needs no display, and OpenGL only for the methods that use it. " INPUTS,
+     NULL, true},
     {"report", ANG_VERB_REPORT, "report PATH -o DIR [options]",
      "error against run time, all methods, as a page to read",
      "Draws one scene with every method over many steps, compares the pictures with the exact one, and writes what "

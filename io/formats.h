@@ -12,6 +12,8 @@ void ang_load_report_start(ang_load_report *report);
 
 /* Whether the file begins like NIfTI-1, gzipped or not. */
 bool ang_nifti_probe(const char *path);
+/* The same for NIfTI-2, which is not read. */
+bool ang_nifti2_probe(const char *path);
 /* As ang_load, for NIfTI-1 (.nii, .nii.gz, or .hdr beside .img). Affine from sform, else qform, else pixdim; RAS to
  * LPS. */
 ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, ang_load_report *report,

@@ -87,6 +87,8 @@ static bool refuse_other_series(const char *label, const ang_load_options *optio
 static bool fail_unknown(const char *path, const char *label, ang_error *err) {
     struct stat status;
     if (stat(path, &status) == 0 && status.st_size == 0) return ang_fail(err, ANG_INPUT, "%s: is empty", label);
+    if (ang_nifti2_probe(path))
+        return ang_fail(err, ANG_INPUT, "%s: is NIfTI-2, which is not read: convert it to NIfTI-1", label);
     return ang_fail(err, ANG_INPUT,
                     "%s: is neither DICOM, " NIFTI "NRRD, MetaImage" PICTURES
                     " nor a zip archive; a raw volume needs --raw-dims and --raw-type or a sidecar %s.json",

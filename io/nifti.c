@@ -6,6 +6,14 @@
 #include <string.h>
 #include <zlib.h>
 
+bool ang_nifti2_probe(const char *path) {
+    char start[8];
+    gzFile file = gzopen(path, "rb");
+    int got = file ? gzread(file, start, sizeof start) : -1;
+    if (file) gzclose(file);
+    return got == (int)sizeof start && (memcmp(start + 4, "n+2", 4) == 0 || memcmp(start + 4, "ni2", 4) == 0);
+}
+
 #ifdef ANG_WITH_NIFTI
 
 #include "core/base/memory.h"

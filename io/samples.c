@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { samples_per_piece = 1 << 16 };
+enum { samples_per_piece = 1 << 16, most_phases = 65536 };
 
 /* How samples become stored values: stored = (sample - low) / step. */
 typedef struct quantiser {
@@ -150,6 +150,9 @@ static bool pass(reading *reading, quantiser *scanned, const quantiser *q, uint1
 /* The length of the parts, and whether the files can hold them. */
 static bool check_size(ang_sample_source *source, size_t count, ang_error *err) {
     size_t size = ang_sample_size(source->type), bytes = ang_product3(count, size, phases_of(source));
+    if (source->phases > most_phases)
+        return ang_fail(err, ANG_INPUT, "%s: %d phases: at most %d are read", source->label, source->phases,
+                        (int)most_phases);
     if (bytes == 0)
         return ang_fail(err, ANG_INPUT, "%s: %d x %d x %d voxels cannot be", source->label, source->dims[0],
                         source->dims[1], source->dims[2]);

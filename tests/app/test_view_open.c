@@ -40,6 +40,9 @@ static int opening(void **state) {
         return -1;
     write_file(FOLDER "/broken/notes.txt", "no picture");
     write_file(FOLDER "/nothing.dcm", "no picture");
+    if (system("mkdir -p " FOLDER "/.more && cd '" FOLDER "/study/b ü%' && python3 -m zipfile -c " FOLDER
+               "/.more/b.zip *.dcm") != 0)
+        return -1;
     write_long_volume();
     return 0;
 }
@@ -145,6 +148,13 @@ static void what_is_dropped_opens(void **state) {
     expect_number("axial.slices", 20, 0);
     drop(FOLDER "/study/a/IM000[1-7].dcm");
     expect_number("axial.slices", 7, 0);
+    drop(FOLDER "/study");
+    expect_number("axial.slices", 24, 0);
+    drop(FOLDER "/.more/b.zip");
+    expect_number("axial.slices", 20, 0);
+    hands("key F3"); /* its series are looked at too */
+    expect_count("series.looked_at", 1);
+    hands("key F3");
     drop(FOLDER "/study");
     expect_number("axial.slices", 24, 0);
 }

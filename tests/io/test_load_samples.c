@@ -238,6 +238,8 @@ static void test_formats_that_are_not_read(void **state) {
     write_file("e.jpg", "\xFF\xD8\xFF\xE0", 4);
     must_fail(FOLDER "/d", ANG_INPUT, "a raw volume needs --raw-dims");
     must_fail(FOLDER "/e.jpg", ANG_INPUT, "e.jpg: is neither DICOM");
+    write_file("f.nii", "\x1C\x02\0\0n+2\0\r\n\x1A\n", 12);
+    must_fail(FOLDER "/f.nii", ANG_INPUT, "f.nii: is NIfTI-2, which is not read");
 }
 
 #ifdef ANG_WITH_NIFTI

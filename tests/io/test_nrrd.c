@@ -202,6 +202,7 @@ static void refused(void **state) {
         {"NRRD0004\ntype: uchar\ndimension: 4\nsizes: 3 2 2 2\nkinds: RGB-color domain domain domain\nencoding: raw\n\n"
          "123456789012345678901234",
          "kind RGB-color", ANG_INPUT},
+        {"NRRD0004\ntype: uchar\ndimension: 4\nsizes: 1 1 1 2000000000\nencoding: raw\n\n", "at most 65536", ANG_INPUT},
         {"NRRD0004\ntype: uchar\ndimension: 1\nsizes: 24\nencoding: raw\n\n123456789012345678901234", "1 axis",
          ANG_INPUT},
         {HEAD "space: LPS\nspace directions: (1,0,0) (2,0,0) (0,0,1)\nencoding: raw\nendian: little\n\n", "do not span",

@@ -62,7 +62,7 @@ static void show_failure(ang_viewer *viewer) {
 static void show_welcome(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     ang_gui_message_begin(gui, "welcome");
-    ang_gui_text(gui, "Drop a folder of DICOM slices here, or open one.");
+    ang_gui_text(gui, "Drop a DICOM folder, a zip archive or another volume here, or open one.");
     ang_gui_gap(gui, ang_gui_px(gui, 4));
     if (ang_gui_button(gui, "Open...", ang_gui_px(gui, 96), true)) ang_file_browser_open(viewer);
     ang_gui_message_end(gui);
