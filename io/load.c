@@ -162,6 +162,23 @@ static bool check_numbers(const ang_volume *volume, const char *label, ang_error
                     ang_volume_spacing(volume, 0), ang_volume_spacing(volume, 1), ang_volume_spacing(volume, 2));
 }
 
+/* What is unusual of the axes that a header gives. DICOM's come from positions, and its reader speaks of tilt. */
+static void note_axes(const ang_volume *volume, ang_notes *assumptions) {
+    static const double degree = 3.14159265358979323846 / 180;
+    double largest = 0; /* cosine between two axes */
+    for (int axis = 0; axis < 3; axis++) {
+        ang_vec3 a = ang_mat4_column(&volume->affine, axis), b = ang_mat4_column(&volume->affine, (axis + 1) % 3);
+        double cosine = fabs(ang_vec3_dot(ang_vec3_unit(a), ang_vec3_unit(b)));
+        if (cosine > largest) largest = cosine;
+    }
+    if (largest > 1e-3)
+        ang_notes_add(assumptions,
+                      "its axes are up to %.2f degrees off right angles: kept as a shear, nothing is resampled for it",
+                      asin(largest < 1 ? largest : 1) / degree);
+    if (ang_mat4_determinant(&volume->affine) < 0)
+        ang_notes_add(assumptions, "its axes are left-handed: kept so, the letters at the panes follow them");
+}
+
 /* Whether `path` lies in `folder` or below it. */
 static bool lies_in(const char *folder, const char *path) {
     char *outer = realpath(folder, NULL), *inner = outer ? realpath(path, NULL) : NULL;
@@ -252,6 +269,7 @@ ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_
         ang_volume_free(volume);
         return NULL;
     }
+    if (strcmp(report->format, "DICOM") != 0) note_axes(volume, &report->assumptions);
     if (options->strict && report->warnings.count > 0) {
         char line[ANG_NOTES_LINE];
         ang_fail(err, ANG_GEOMETRY, "--strict: %s", ang_notes_line(&report->warnings, 0, true, line, sizeof line));

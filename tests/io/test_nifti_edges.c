@@ -53,6 +53,11 @@ static void left_handed_qform(void **state) {
         const double affine[12] = {0, 0.75, 0, -7, -0.5, 0, 0, -8, 0, 0, 2.0 * handed, 9};
         expect_volume("q.nii", 0, affine);
         expect_note("q.nii", false, "orientation from the qform (code 1)");
+        ang_load_report report;
+        ang_volume_free(load(FOLDER "/q.nii", &report));
+        assert_int_equal(told(&report.assumptions, "left-handed"), handed < 0);
+        assert_false(told(&report.assumptions, "off right angles"));
+        ang_load_report_clear(&report);
     }
 }
 
@@ -68,6 +73,8 @@ static void sheared_and_mirrored_sform(void **state) {
     ang_load_report report;
     ang_volume *v = load(FOLDER "/s.nii", &report);
     assert_float_equal(ang_volume_slice_distance(v), 2, 1e-6);
+    /* between the second axis and the third: 0.5 / |(0.25, 0.5, -2)| */
+    assert_true(told(&report.assumptions, "up to 13.93 degrees off right angles"));
     assert_true(told(&report.warnings, "along its third axis the sform says voxels of 2.077, pixdim of 2"));
     ang_volume_free(v);
     ang_load_report_clear(&report);
