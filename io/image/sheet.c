@@ -17,7 +17,7 @@ typedef struct grid {
     size_t columns, rows;
 } grid;
 
-static const float ground = 0.11F, ink = 0.92F;
+static const float ground = 0.11F;
 
 static grid plan(const ang_image *first, size_t count) {
     grid g = {.width = first->width, .height = first->height};
@@ -46,6 +46,8 @@ static void place(const grid *g, const ang_image *picture, size_t left, size_t t
 }
 
 #ifdef ANG_WITH_OIIO
+static const float ink = 0.92F;
+
 /* As much of the name as goes, in whole characters of UTF-8. */
 static bool fit(const grid *g, const char *font, const char *name, char *text, size_t size) {
     int width, top, bottom;
