@@ -24,7 +24,11 @@ static void copy_notes(const ang_load_report *report, ang_study *study) {
 static void write_label(const ang_load_report *report, ang_study *study) {
     const ang_series_info *info = &report->series[report->chosen];
     bool named = strcmp(info->modality, "?") != 0;
-    snprintf(study->label, sizeof study->label, "%s series %d", named ? info->modality : report->format, info->number);
+    char phase[24] = "";
+    if (info->phases > 1) snprintf(phase, sizeof phase, ", phase %d", report->phase);
+    snprintf(study->label, sizeof study->label, "%s series %d%s", named ? info->modality : report->format, info->number,
+             phase);
+    snprintf(study->phase_text, sizeof study->phase_text, "%s", ang_series_phase_text(info, report->phase));
     if (info->description) snprintf(study->description, sizeof study->description, "%s", info->description);
     if (info->patient) ang_person_name_print(info->patient, study->patient, sizeof study->patient);
 }
@@ -55,6 +59,7 @@ bool ang_view_load(const ang_load_options *how, bool keep_phi, const ang_source 
     ang_load_options options = *how;
     snprintf(number, sizeof number, "%d", source->series);
     if (source->series > 0) options.series = number;
+    if (source->series > 0) options.phase = source->phase;
     options.slices = *slices;
     options.series_choice = "File > Series (key F3)";
     *study = (ang_study){0};
@@ -73,6 +78,8 @@ bool ang_view_load(const ang_load_options *how, bool keep_phi, const ang_source 
     study->window_width = report->window_width;
     study->series = report->chosen + 1;
     study->series_count = (int)report->series_count;
+    study->phase = report->phase;
+    study->phases = report->series[report->chosen].phases;
     study->report = print_report(study->volume, report, keep_phi);
     ang_load_report_facts(study->volume, report, &study->facts);
     write_label(report, study);
@@ -91,6 +98,7 @@ static void describe(const ang_series_info *info, ang_series_entry *entry) {
     entry->dims[0] = info->width;
     entry->dims[1] = info->height;
     entry->dims[2] = info->slices;
+    entry->phases = info->phases;
     memcpy(entry->spacing_mm, info->spacing_mm, sizeof entry->spacing_mm);
     snprintf(entry->modality, sizeof entry->modality, "%s", info->modality);
     snprintf(entry->date, sizeof entry->date, "%s", info->date);

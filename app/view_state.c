@@ -406,7 +406,11 @@ static void add_browsers(cJSON *live, const ang_viewer_state *state) {
     cJSON_AddNumberToObject(series, "chosen", state->series.chosen);
     cJSON_AddNumberToObject(series, "looked_at", state->series.looked_at);
     cJSON_AddBoolToObject(series, "dates", state->series.dates);
-    if (state->study) cJSON_AddNumberToObject(series, "shown", state->study->series);
+    if (state->study) {
+        cJSON_AddNumberToObject(series, "shown", state->study->series);
+        cJSON_AddNumberToObject(series, "phase", state->study->phase);
+        cJSON_AddNumberToObject(series, "phases", state->study->phases);
+    }
     cJSON_AddNumberToObject(live, "warnings", state->study ? state->study->warnings : 0);
     cJSON_AddNumberToObject(live, "slices_previewed", state->slices_previewed);
 }

@@ -34,6 +34,8 @@ typedef struct ang_study {
     int warnings;                        /* how many of the notes, from the first, are warnings */
     int series, series_count; /* which of how many series of its source, from 1; the number also of what could
                                  not be loaded */
+    int phase, phases;        /* which of how many of the series, from 1 */
+    char phase_text[128];     /* what that phase is; "": one volume, or not known */
     ang_facts facts;          /* geometry and values, nothing that may identify a patient */
     char *report;             /* all that loading found, as text to be copied; NULL: none */
     void *handle;             /* the host's */

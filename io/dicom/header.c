@@ -208,6 +208,12 @@ static bool starts(const char *text, const char *prefix) { return strncmp(text, 
 
 static bool has_groups(const seen *seen) { return seen->multi.shared.tag || seen->multi.per_frame.tag; }
 
+/* False where the class says that there never were pixels. */
+static bool may_be_image(const ang_dicom_slice *s) {
+    const char *name = ang_dicom_class_name(s->sop_class);
+    return strcmp(name, "other") == 0 || strstr(name, "image");
+}
+
 /* True where the file is an image of pixels; else says what it is instead. */
 static bool check_kind(ang_dicom_slice *s, const seen *seen) {
     const char *what = ang_dicom_modality(s->modality);
@@ -349,7 +355,9 @@ ang_dicom_found ang_dicom_header(const char *path, const char *label, ang_dicom_
              ang_dicom_is_transfer_syntax(reader->transfer_syntax) ? reader->transfer_syntax : "other");
     seen seen = {0};
     size_t count = 0;
+    uint32_t last = 0;
     for (ang_dicom_element element; ang_dicom_next(reader, &element); count++) {
+        last = element.tag;
         uint32_t group = element.tag >> 16;
         if (group == 0x0008 || group == 0x0010 || group == 0x0020) take_identity(reader, &element, slice, &seen);
         if (group == 0x0018 || group == 0x0020 || group == 0x0028) ang_dicom_take_geometry(reader, &element, slice);
@@ -366,6 +374,9 @@ ang_dicom_found ang_dicom_header(const char *path, const char *label, ang_dicom_
     } else if (count == 0 || (!slice->sop_class[0] && !seen.rows && !seen.pixels)) {
         ok = ang_fail(err, ANG_INPUT, "%s: (0008,0016) SOPClassUID is missing%s: no DICOM image", label,
                       reader->truncated ? " and the file is cut off" : "");
+    } else if (reader->truncated && !seen.pixels && may_be_image(slice)) {
+        ok = ang_fail(err, ANG_INPUT, "%s: its header is damaged or cut off behind (%04X,%04X)", label, last >> 16,
+                      last & 0xFFFF);
     } else if (check_kind(slice, &seen)) {
         slice->image = true;
         ok = check_pixels(slice, &seen, reader, label, err) &&

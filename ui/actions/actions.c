@@ -44,6 +44,7 @@ static void show_series(ang_viewer *viewer, int argument) {
     viewer->series.open = !viewer->series.open;
     if (viewer->series.open) viewer->grips.layout.panel_hidden = false; /* which is where it is */
 }
+static bool has_phases(const ang_viewer *viewer) { return viewer->ready && viewer->study.phases > 1; }
 static void quit(ang_viewer *viewer, int argument) {
     (void)argument;
     ang_window_close(viewer->window);
@@ -237,6 +238,9 @@ static const ang_action actions[] = {
     {"Slices", "Cine slower", NULL, ANG_KEY_DOWN, A, ang_playing_faster, -1, false, is_ready, NULL},
     {"Slices", "Cine back and forth", "else from the first slice again", 'V', S, toggle, FLAG(cine.back_and_forth),
      false, is_ready, is_on},
+    {"Slices", "Next phase", "of a series of several volumes at one place", ']', C, ang_viewer_step_phase, 1, true,
+     has_phases, NULL},
+    {"Slices", "Previous phase", NULL, '[', C, ang_viewer_step_phase, -1, false, has_phases, NULL},
     {"Slices", "Turn the planes to the right",
      "by 1 degree about the normal of the slice with the bright frame, else axial; "
      "also by the handles of the crosshair",

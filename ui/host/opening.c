@@ -2,6 +2,7 @@
 
 #include "core/base/memory.h"
 #include "ui/host/state_files.h"
+#include "ui/panes/planes.h"
 #include "ui/study.h"
 #include "ui/viewer_private.h"
 
@@ -53,11 +54,41 @@ void ang_viewer_open_source(ang_viewer *viewer, ang_source *source) {
 static void say_loaded(ang_viewer *viewer) {
     int warnings = viewer->study.warnings;
     char text[ANG_NOTES_LINE];
-    if (warnings == 1)
+    if (viewer->study.phases > 1 && warnings == 0)
+        ang_viewer_say(viewer, false, "Phase %d of %d%s%s", viewer->study.phase, viewer->study.phases,
+                       viewer->study.phase_text[0] ? ": " : "", viewer->study.phase_text);
+    else if (warnings == 1)
         ang_viewer_say(viewer, false, "%s (F2: the report)",
                        ang_notes_line(&viewer->study.notes, 0, false, text, sizeof text));
     else if (warnings > 1)
         ang_viewer_say(viewer, false, "%d warnings on loading: F2 shows them", warnings);
+}
+
+/* Whether the study is another phase of what is shown, voxel for voxel at the same place: nothing else changes then. */
+static bool is_other_phase(const ang_viewer *viewer, const ang_study *study, const ang_source *source) {
+    const ang_study *shown = &viewer->study;
+    return viewer->ready && study->phases > 1 && study->series == shown->series &&
+           ang_source_same_files(&viewer->shown, source) &&
+           memcmp(study->volume->dims, shown->volume->dims, sizeof shown->volume->dims) == 0 &&
+           memcmp(&study->volume->affine, &shown->volume->affine, sizeof shown->volume->affine) == 0;
+}
+
+static void show_study(ang_viewer *viewer, const ang_study *study, const ang_source *source, const char *preset) {
+    bool stays = is_other_phase(viewer, study, source);
+    ang_document kept = viewer->document;
+    ang_study_show(viewer, study, preset);
+    if (!stays || !viewer->ready) return;
+    viewer->document = kept;
+    ang_planes_take(viewer);
+    ang_history_clear(&viewer->history);
+    ang_history_note(&viewer->history, &viewer->document, 0);
+}
+
+void ang_viewer_step_phase(ang_viewer *viewer, int step) {
+    const ang_study *study = &viewer->study;
+    ang_source source = ang_source_of_series(&viewer->shown, study->series);
+    source.phase = (study->phase - 1 + step + study->phases) % study->phases + 1;
+    ang_viewer_open_source(viewer, &source);
 }
 
 void ang_viewer_take_loaded(ang_viewer *viewer, const char *wanted_preset) {
@@ -74,7 +105,7 @@ void ang_viewer_take_loaded(ang_viewer *viewer, const char *wanted_preset) {
         return;
     }
     if (done) {
-        ang_study_show(viewer, &study, wanted_preset);
+        show_study(viewer, &study, &source, wanted_preset);
         ang_source_move(&viewer->shown, &source);
         if (viewer->shown.count == 1) ang_settings_opened(viewer, viewer->asked);
         if (viewer->ready) say_loaded(viewer);

@@ -17,6 +17,9 @@ typedef struct ang_slice_preview {
 void ang_viewer_open(ang_viewer *viewer, const char *path);
 /* The same for any source, which is taken. What is being loaded is stopped; what is shown stays until this is there. */
 void ang_viewer_open_source(ang_viewer *viewer, ang_source *source);
+/* Opens the next phase of the series that is shown, or with `step` -1 the one before; behind the last comes the first.
+ */
+void ang_viewer_step_phase(ang_viewer *viewer, int step);
 /* Shows what has been loaded meanwhile. */
 void ang_viewer_take_loaded(ang_viewer *viewer, const char *wanted_preset);
 /* Makes the slice that was read last the one that is shown while loading. */

@@ -238,8 +238,10 @@ static void draw_row(ang_viewer *viewer, int row) {
     ang_gui_clip(gui, (ang_rect){x, rect.y, room, rect.height});
     ang_series_entry_title(entry, ang_identity_shown(viewer), text, sizeof text);
     ang_gui_write(gui, x, y - ang_gui_px(gui, 1), 0, false, false, entry->loadable ? theme->text : theme->dim, text);
-    snprintf(text, sizeof text, "%d x %d, %d slice%s%s%s", entry->dims[0], entry->dims[1], entry->dims[2],
-             ang_plural(entry->dims[2]), dated ? ",  " : "", dated ? entry->date : "");
+    char phases[32] = "";
+    if (entry->phases > 1) snprintf(phases, sizeof phases, ", %d phases", entry->phases);
+    snprintf(text, sizeof text, "%d x %d, %d slice%s%s%s%s", entry->dims[0], entry->dims[1], entry->dims[2],
+             ang_plural(entry->dims[2]), phases, dated ? ",  " : "", dated ? entry->date : "");
     ang_gui_write(gui, x, y + line, 0, true, false, theme->dim, entry->dims[0] > 0 ? text : "");
     const double *mm = entry->spacing_mm;
     snprintf(text, sizeof text, "%.3g x %.3g x %.3g mm", mm[0], mm[1], mm[2]);

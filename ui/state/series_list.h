@@ -12,6 +12,7 @@ typedef struct ang_series_entry {
     char description[96]; /* UTF-8; may identify a patient */
     char date[11];        /* "2024-05-17"; empty: not known */
     int dims[3];          /* columns, rows, slices; 0: not known before it is read */
+    int phases;           /* volumes at one place; 0 or 1: it is one */
     double spacing_mm[3];
     bool loadable;
     char remark[400];  /* what it is, or why it cannot be loaded; empty: nothing to say */

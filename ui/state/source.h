@@ -10,11 +10,12 @@ typedef struct ang_source {
     char **paths;
     size_t count;
     int series; /* 1, 2, ... as listed; 0: the reader chooses */
+    int phase;  /* of a series of several, from 1; 0: the first */
 } ang_source;
 
 /* A copy of the paths; one of nothing where memory is out. */
 ang_source ang_source_make(const char *const *paths, size_t count, int series);
-/* The same files, another series. */
+/* The same files, another series, its first phase. */
 ang_source ang_source_of_series(const ang_source *source, int series);
 /* Lets go of what `to` was; `from` is nothing then. */
 void ang_source_move(ang_source *to, ang_source *from);
