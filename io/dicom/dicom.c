@@ -19,7 +19,7 @@ bool ang_dicom_probe(const char *path) {
     ang_dicom_reader *reader = malloc(sizeof *reader);
     if (!reader) return false;
     ang_error ignored;
-    bool found = ang_dicom_open(reader, path, "", &ignored) == ANG_DICOM_FOUND;
+    bool found = ang_dicom_open_meta(reader, path, "", &ignored) == ANG_DICOM_FOUND;
     ang_dicom_close(reader);
     free(reader);
     return found;

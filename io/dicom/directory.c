@@ -18,7 +18,7 @@ bool ang_dicom_is_directory(const char *path) {
     if (strcasecmp(ang_base_name(path), "DICOMDIR") == 0) return true;
     ang_dicom_reader *reader = malloc(sizeof *reader);
     if (!reader) return false;
-    bool found = ang_dicom_open(reader, path, "", NULL) == ANG_DICOM_FOUND &&
+    bool found = ang_dicom_open_meta(reader, path, "", NULL) == ANG_DICOM_FOUND &&
                  strcmp(reader->media_class, "1.2.840.10008.1.3.10") == 0;
     ang_dicom_close(reader);
     free(reader);

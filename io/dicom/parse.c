@@ -229,7 +229,7 @@ static void read_meta(ang_dicom_reader *reader) {
     reader->in_meta = false;
 }
 
-ang_dicom_found ang_dicom_open(ang_dicom_reader *reader, const char *path, const char *label, ang_error *err) {
+ang_dicom_found ang_dicom_open_meta(ang_dicom_reader *reader, const char *path, const char *label, ang_error *err) {
     reader->memory = NULL;
     reader->size = reader->next = reader->window_at = 0;
     reader->window_length = 0;
@@ -256,7 +256,12 @@ ang_dicom_found ang_dicom_open(ang_dicom_reader *reader, const char *path, const
     }
     if (!has_magic && !guess_coding(reader)) return ANG_DICOM_FOREIGN;
     if (get16(first, false) == 2) read_meta(reader);
+    return ANG_DICOM_FOUND;
+}
 
+ang_dicom_found ang_dicom_open(ang_dicom_reader *reader, const char *path, const char *label, ang_error *err) {
+    ang_dicom_found found = ang_dicom_open_meta(reader, path, label, err);
+    if (found != ANG_DICOM_FOUND) return found;
     const char *syntax = reader->transfer_syntax;
     if (strcmp(syntax, "1.2.840.10008.1.2.1.99") == 0) {
         uint64_t size;
@@ -285,7 +290,7 @@ void ang_dicom_close(ang_dicom_reader *reader) {
 uint8_t *ang_dicom_inflate(int fd, uint64_t offset, uint64_t file_size, uint64_t *size, const char *label,
                            ang_error *err) {
     enum { chunk = 65536 };
-    uint64_t limit = UINT64_C(1) << 30; /* a slice of a gigabyte is no slice */
+    uint64_t limit = UINT64_C(1) << 28; /* 256 MB: no slice is as large */
     uint8_t *in = ang_alloc(chunk, 1, "compressed bytes", err), *out = NULL;
     if (!in) return NULL;
     z_stream stream = {0};

@@ -53,6 +53,8 @@ typedef enum ang_dicom_found {
 /* Opens `path` and finds the start and the coding of its data set, also where preamble, meta header or transfer syntax
  * are missing. `label` names the file in errors. Close with ang_dicom_close in every case. */
 ang_dicom_found ang_dicom_open(ang_dicom_reader *reader, const char *path, const char *label, ang_error *err);
+/* The same as far as the meta header: nothing is inflated, and nothing behind it may be read. */
+ang_dicom_found ang_dicom_open_meta(ang_dicom_reader *reader, const char *path, const char *label, ang_error *err);
 void ang_dicom_close(ang_dicom_reader *reader);
 
 /* The next element of the data set's top level; sequences are stepped over. False at the end, with `truncated` set
