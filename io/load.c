@@ -144,6 +144,8 @@ static ang_volume *dispatch(const char *path, const ang_load_options *options, a
 static bool check_numbers(const ang_volume *volume, const char *label, ang_error *err) {
     static const double least_slope = 1e-30, least_spacing = 1e-6, most_spacing = 1e6; /* floats hold their powers */
     double low = ang_volume_hu(volume, volume->minimum), high = ang_volume_hu(volume, volume->maximum);
+    if (!isfinite(low) || !isfinite(high))
+        return ang_fail(err, ANG_INPUT, "%s: its values are no numbers; is the rescale right?", label);
     if (!(low >= -ANG_TRANSFER_HU_LIMIT && high <= ANG_TRANSFER_HU_LIMIT))
         return ang_fail(err, ANG_INPUT, "%s: its values, %g to %g, are beyond %g; is the rescale right?", label, low,
                         high, ANG_TRANSFER_HU_LIMIT);

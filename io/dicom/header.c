@@ -15,6 +15,7 @@
 /* What the loop over the elements has seen; the record holds the rest. */
 typedef struct seen {
     bool rows, columns, bits_allocated, bits_stored, high_bit, representation;
+    bool odd_representation; /* neither 0 nor 1 */
     bool pixels, float_pixels;
     uint32_t pixel_length;
     ang_dicom_multi_frame multi; /* what describes the frames */
@@ -167,6 +168,7 @@ static void take_pixels(ang_dicom_reader *r, const ang_dicom_element *e, ang_dic
     case ANG_DICOM_TAG(0x0028, 0x0103):
         seen->representation = word(r, e, &number);
         s->is_signed = number == 1;
+        seen->odd_representation = seen->representation && number != 0 && number != 1;
         break;
     case ANG_DICOM_TAG(0x0028, 0x0120):
         s->has_padding = ang_dicom_word(r, e, &s->padding);
@@ -231,8 +233,17 @@ static bool check_kind(ang_dicom_slice *s, const seen *seen) {
     return s->refusal[0] == 0;
 }
 
+/* Whether a transfer syntax of the standard codes pixels in this way (PS3.5 annex A). */
+static bool syntax_codes(const char *syntax, bool encapsulated) {
+    bool packed = starts(syntax, "1.2.840.10008.1.2.4.") || strcmp(syntax, "1.2.840.10008.1.2.5") == 0;
+    bool plain = strcmp(syntax, "1.2.840.10008.1.2") == 0 || strcmp(syntax, "1.2.840.10008.1.2.1") == 0 ||
+                 strcmp(syntax, "1.2.840.10008.1.2.1.99") == 0 || strcmp(syntax, "1.2.840.10008.1.2.2") == 0;
+    return encapsulated ? packed : plain;
+}
+
 static bool find_coding(ang_dicom_slice *s, const ang_dicom_reader *reader, bool encapsulated) {
     const char *syntax = s->transfer_syntax;
+    s->wrong_syntax = reader->overruled || (reader->transfer_syntax[0] && !syntax_codes(syntax, encapsulated));
     if (reader->memory) {
         s->coding = ANG_DICOM_DEFLATED;
     } else if (!encapsulated) {
@@ -277,6 +288,8 @@ static bool check_pixels(ang_dicom_slice *s, const seen *seen, ang_dicom_reader 
     if (s->high_bit < s->bits_stored - 1 || s->high_bit >= s->bits_allocated)
         return ang_fail(err, ANG_INPUT, "%s: (0028,0102) HighBit %d does not fit BitsStored %d", label, s->high_bit,
                         s->bits_stored);
+    if (seen->odd_representation)
+        return ang_fail(err, ANG_INPUT, "%s: (0028,0103) PixelRepresentation is neither 0 nor 1", label);
     if (s->bits_stored > 16) {
         snprintf(s->refusal, sizeof s->refusal, "(0028,0101) BitsStored %d: more than 16 bits", s->bits_stored);
         return true;

@@ -233,7 +233,7 @@ ang_dicom_found ang_dicom_open_meta(ang_dicom_reader *reader, const char *path, 
     reader->memory = NULL;
     reader->size = reader->next = reader->window_at = 0;
     reader->window_length = 0;
-    reader->big_endian = reader->in_meta = reader->truncated = false;
+    reader->big_endian = reader->in_meta = reader->truncated = reader->overruled = false;
     reader->is_explicit = true;
     reader->transfer_syntax[0] = reader->media_class[0] = 0;
     reader->fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -248,6 +248,11 @@ ang_dicom_found ang_dicom_open_meta(ang_dicom_reader *reader, const char *path, 
     const uint8_t *magic = ang_dicom_bytes(reader, 128, 4);
     bool has_magic = magic && memcmp(magic, "DICM", 4) == 0;
     if (has_magic) reader->next = 132;
+    const uint8_t *start = has_magic ? NULL : ang_dicom_bytes(reader, 0, 4);
+    if (start && memcmp(start, "DICM", 4) == 0) { /* the preamble is missing, its magic is not */
+        has_magic = true;
+        reader->next = 4;
+    }
     const uint8_t *first = ang_dicom_bytes(reader, reader->next, 8);
     if (!first) {
         if (!has_magic) return ANG_DICOM_FOREIGN;
@@ -277,6 +282,7 @@ ang_dicom_found ang_dicom_open(ang_dicom_reader *reader, const char *path, const
         reader->is_explicit = !implicit;
         reader->big_endian = big;
     }
+    reader->overruled = syntax[0] && (reader->is_explicit == implicit || reader->big_endian != big);
     return ANG_DICOM_FOUND;
 }
 

@@ -26,6 +26,7 @@ typedef struct ang_dicom_reader {
     uint64_t next; /* offset of the next element */
     bool big_endian, is_explicit, in_meta;
     bool truncated; /* an element reaches beyond the end */
+    bool overruled; /* the data set is not coded as its transfer syntax says */
     char transfer_syntax[65];
     char media_class[65]; /* MediaStorageSOPClassUID */
 } ang_dicom_reader;

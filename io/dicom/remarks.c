@@ -45,14 +45,18 @@ static void note_first(const ang_dicom_slice *first, ang_notes *assumptions, ang
 
 /* What the first slice need not say: it may be any of them. */
 static void note_any(const ang_dicom_slice *slices, const ang_dicom_group *group, ang_notes *warnings) {
-    bool unit = false, offsets = false, lossy = false;
+    bool unit = false, offsets = false, lossy = false, syntax = false;
     for (size_t i = 0; i < group->count; i++) {
         const ang_dicom_slice *slice = &slices[group->order[i]];
         unit = unit || (slice->other_unit && strcmp(slice->modality, "CT") == 0);
         offsets = offsets || slice->wrong_offsets;
         lossy = lossy || slice->lossy;
+        syntax = syntax || slice->wrong_syntax;
     }
     if (lossy) ang_notes_add(warnings, "the pictures were compressed with loss: values are approximate");
+    if (syntax)
+        ang_notes_add(warnings,
+                      "(0002,0010) TransferSyntaxUID does not fit: how the file is coded was found by looking");
     if (unit) ang_notes_add(warnings, "(0028,1054) RescaleType is not HU: values may not be Hounsfield units");
     if (offsets)
         ang_notes_add(warnings, "(7FE0,0010) PixelData: the table of frames is wrong; its fragments tell them apart");

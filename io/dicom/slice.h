@@ -48,6 +48,7 @@ typedef struct ang_dicom_slice {
     int bits_allocated, bits_stored, high_bit;
     ang_dicom_coding coding;
     bool is_signed, lossy;
+    bool wrong_syntax;  /* TransferSyntaxUID is there, and the file is not coded so or it is of no standard */
     bool other_unit;    /* RescaleType is there and not HU */
     bool wrong_offsets; /* the table of its frames' offsets is wrong and was not used */
 

@@ -65,6 +65,7 @@ typedef struct form {
     const uint8_t *stream;       /* compressed pixels; NULL: `pixels` as they are */
     size_t stream_length;        /* even */
     int padding;
+    const char *transfer_syntax; /* which it is said to have; it has explicit VR, little endian */
     const char *trigger_time, *patient_id, *series_uid, *padding_vr;
     int temporal_position;                  /* 0: none */
     int columns, rows, bits_stored, frames; /* 0: width, height, 16, one */
