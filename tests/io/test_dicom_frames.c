@@ -1,6 +1,9 @@
 /* Multi-frame images: functional groups and the fragments of frames. */
-#define FOLDER ANG_TEST_TMP "/frames"
+#define FOLDER  ANG_TEST_TMP "/frames"
+#define SCRATCH ANG_TEST_TMP "/frames-nii"
 #include "tests/io/dicom_sequences.h"
+
+#include "tests/io/dcm2niix.h"
 
 enum { most_frames = 8, pixels_of_frame = width * height };
 
@@ -369,6 +372,15 @@ static void test_fragments(void **state) {
     }
 }
 
+static void test_dcm2niix_reads_the_same(void **state) {
+    (void)state;
+    need_dcm2niix();
+    start();
+    enhanced_form form = {.frames = 5, .places = true, .z = {6, 0, 3, 12, 9}, .in_stack = {3, 1, 2, 5, 4}};
+    enhanced("a.dcm", &form);
+    compare_dcm2niix(FOLDER, "out", "out");
+}
+
 static void test_one_frame(void **state) {
     (void)state;
     enhanced_form form = {.frames = 1};
@@ -414,6 +426,7 @@ int main(void) {
         cmocka_unit_test(test_order_without_positions),
         cmocka_unit_test(test_types_and_units),
         cmocka_unit_test(test_fragments),
+        cmocka_unit_test(test_dcm2niix_reads_the_same),
         cmocka_unit_test(test_one_frame),
         cmocka_unit_test(test_claims_are_checked),
     };

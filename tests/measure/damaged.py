@@ -199,8 +199,17 @@ class Trial:
             total.slowest = max(total.slowest, tally.slowest)
         return head + [tally.row(kind) for kind, tally in self.tallies.items()] + [total.row("all")]
 
+    def verdicts(self):
+        """What the program says of real files, each sentence once."""
+        lines = ["| folder | files | verdict |", "|---|---|---|"]
+        for kind in REAL:
+            for sentence, count in sorted(self.sentences[kind].items(), key=lambda item: (-item[1], item[0])):
+                lines.append("| %s | %d | %s |" % (kind, count, sentence.replace("|", "/")))
+        return lines
+
 
 def real_files(data):
+    """(folder, name, path) of every file of the real oddities, and these folders as a whole."""
     for folder in REAL:
         top = os.path.join(data, folder)
         for where, folders, names in sorted(os.walk(top)):
@@ -231,11 +240,10 @@ def main():
         for kind, case, path in damaged_series.make(os.path.join(scratch, "made"), options.seed, originals):
             if options.only in kind:
                 trial.try_one(kind, case, path)
-    table = "\n".join(trial.table())
-    print(table)
+    print("\n".join(trial.table()))
     if options.table:
         with open(options.table, "w") as out:
-            out.write(table + "\n")
+            out.write("\n".join(trial.table() + [""] + trial.verdicts()) + "\n")
     print("%d wrong" % len(trial.wrong))
     return 1 if trial.wrong else 0
 
