@@ -331,7 +331,7 @@ static bool of_one_series(const ang_dicom_group *a, const ang_dicom_group *b) {
 /* The group of the first phase of the series that group `index` is of. */
 static const ang_dicom_group *first_phase(const ang_dicom_groups *groups, size_t index) {
     const ang_dicom_group *first = &groups->group[index];
-    for (size_t i = 0; i < groups->count; i++)
+    for (size_t i = 0; first->set > 0 && i < groups->count; i++)
         if (of_one_series(first, &groups->group[i]) && groups->group[i].phase < first->phase) first = &groups->group[i];
     return first;
 }

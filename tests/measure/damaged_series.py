@@ -4,7 +4,9 @@ make(folder, seed) yields (kind, case, path): what is wrong, which of its kind i
 import io
 import os
 import random
+import shutil
 import struct
+import subprocess
 
 import numpy
 from pydicom.dataset import Dataset, FileDataset, FileMetaDataset
@@ -326,6 +328,20 @@ def streams(cases, rng, originals):
             yield "compressed streams cut off", "%s %g" % (name, k), cases.file(whole[:body + int(k * (len(whole) - body))])
 
 
+def by_dcmtk(cases):
+    """Multi-frame images coded by dcmtk, where it is installed; 12 bits, as its codecs want them."""
+    ds = enhanced()
+    ds.BitsStored, ds.HighBit = 12, 11
+    plain = cases.file(coded(ds))
+    tools = [("dcmcrle",), ("dcmcjpls",), ("dcmcjpls", "+fs", "1"), ("dcmcjpeg", "+e1"), ("dcmcjpeg", "+el"),
+             ("dcmcjpeg", "+e1", "+fs", "1"), ("dcmcjpeg", "+e1", "-ot"), ("dcmconv", "+tb"), ("dcmconv", "+ti"),
+             ("dcmconv", "+te", "-e"), ("dcmconv", "+td")]
+    for tool in tools:
+        out = os.path.join(cases.place(), "a.dcm")
+        if shutil.which(tool[0]) and subprocess.run([*tool, plain, out], capture_output=True).returncode == 0:
+            yield "multi-frame images by dcmtk", " ".join(tool), out
+
+
 def multi_frame(cases, rng):
     yield "multi-frame images", "frames in no order", cases.file(coded(enhanced()))
     yield "multi-frame images", "implicit VR", cases.file(coded(enhanced(syntax=ImplicitVRLittleEndian)))
@@ -459,6 +475,7 @@ def make(folder, seed, originals=()):
     yield from fragments(cases, rng)
     yield from streams(cases, rng, originals)
     yield from multi_frame(cases, rng)
+    yield from by_dcmtk(cases)
     yield from indices(cases, rng)
     yield from stacks(cases)
     yield from folders(cases)
