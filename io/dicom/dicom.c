@@ -2,6 +2,7 @@
 
 #include "core/base/memory.h"
 #include "io/dicom/assemble.h"
+#include "io/dicom/choose.h"
 #include "io/dicom/listing.h"
 #include "io/dicom/parse.h"
 #include "io/dicom/remarks.h"

@@ -8,8 +8,8 @@
 #include <string.h>
 
 bool ang_dicom_phases_differ(const ang_dicom_slice *a, const ang_dicom_slice *b) {
-    static const ang_dicom_key telling[] = {ANG_DICOM_BY_TEMPORAL_POSITION, ANG_DICOM_BY_TRIGGER_TIME,
-                                            ANG_DICOM_BY_CARDIAC_PHASE, ANG_DICOM_BY_DIMENSIONS,
+    static const ang_dicom_key telling[] = {ANG_DICOM_BY_TEMPORAL_POSITION,  ANG_DICOM_BY_TRIGGER_TIME,
+                                            ANG_DICOM_BY_CARDIAC_PHASE,      ANG_DICOM_BY_DIMENSIONS,
                                             ANG_DICOM_BY_ACQUISITION_NUMBER, ANG_DICOM_BY_ACQUISITION_TIME};
     for (size_t i = 0; i < sizeof telling / sizeof *telling; i++) {
         char left[129], right[129];

@@ -1,5 +1,5 @@
-/* Which slices make one volume: grouping, localizers, phases, duplicates, and the choice of the series to load
- * (dicom-rules 1 and 6). Pure functions over slice records. */
+/* Which slices make one volume: grouping, localizers, phases, duplicates (dicom-rules 1 and 6). Pure functions over
+ * slice records. */
 #ifndef ANG_DICOM_SERIES_H
 #define ANG_DICOM_SERIES_H
 
@@ -56,11 +56,5 @@ void ang_dicom_groups_clear(ang_dicom_groups *groups);
 
 /* The group of series `number`, from 1, and of its first phase. */
 size_t ang_dicom_series_start(const ang_dicom_groups *groups, int number);
-
-/* The group to load, of the series' first phase: series number `series` (1, 2, ...) or the one whose SeriesInstanceUID
- * ends in it; NULL: the largest CT volume, else the largest of another modality; of equal ones the first without lossy
- * compression, else the first. ANG_INPUT where there is none that can be loaded. */
-bool ang_dicom_choose(const ang_dicom_slice *slices, const ang_dicom_groups *groups, const char *series, size_t *chosen,
-                      ang_error *err);
 
 #endif

@@ -2,8 +2,8 @@
 #define FOLDER ANG_TEST_TMP "/phases"
 #include "tests/io/small_dicom.h"
 
+#include "io/dicom/choose.h"
 #include "io/dicom/phases.h"
-#include "io/dicom/series.h"
 #include "tests/io/slice_record.h"
 
 /* All slices hold the same pixels: air. */

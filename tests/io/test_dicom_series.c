@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "io/dicom/series.h"
+#include "io/dicom/choose.h"
 #include "io/dicom/terms.h"
 #include "tests/io/slice_record.h"
 
