@@ -134,6 +134,9 @@ static const ang_option table[] = {
     REAL_OPTION("max-time", ANG_VERB_RENDER, max_time, "MS", 1e-3, 1e9, NULL, "ms",
                 "take the method, step and, where time is short, every second or fourth pixel along each axis with the "
                 "least error that draw a frame within this time, once everything is built"),
+    INTEGER_OPTION("every", ANG_VERB_RENDER, every, 1, 16, "1",
+                   "draw every Nth pixel along each axis and interpolate those between, for glances; --max-time "
+                   "chooses it itself"),
     TEXT_OPTION("force", ANG_VERB_RENDER, force, "LIST|all", NULL,
                 "use parts that the plan leaves out (see --explain), to prove that they change nothing: gradients, "
                 "exponential, colour, rounding, termination, skipping, descent, near-plane, directions, border, slabs, "

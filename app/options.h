@@ -31,7 +31,7 @@ typedef struct ang_options {
     const char *cases;
     double scale, shift, iso, step, zoom, termination, fov, orbit, noise, gpu_memory, threshold, time_limit, max_error,
         max_time, fps; /* NaN where not given and without default */
-    int frames, repeat, threads, seed, pass_steps, quads, phase;
+    int frames, repeat, threads, seed, pass_steps, quads, phase, every;
     bool no_termination, no_skip, count_shown, separate_passes, show_bricks, axes, explain, manual_filter, strict,
         no_sandbox, annotate, keep_phi, replace, quiet, verbose, help, json_flag;
     const char **arguments; /* what is not an option, NULL at the end */

@@ -145,6 +145,7 @@ bool ang_picture_make(const ang_options *options, const ang_volume *volume, cons
     if (options->clip_plane && !ang_clip_plane_parse(options->clip_plane, &scene->clip_plane, err)) return false;
     if (!read_background(options, scene->background, err) || !add_objects(options, volume, picture, err)) return false;
 
+    picture->every = options->every;
     picture->render = ang_render_options_default;
     picture->render.step_voxels = options->step;
     picture->render.termination = options->no_termination ? 1 : options->termination;

@@ -20,6 +20,7 @@ typedef struct ang_picture {
     ang_objects objects; /* what the scene borrows */
     ang_scene scene;
     ang_render_options render;
+    int every;    /* every so many pixels along each axis are drawn, those between interpolated; 1: all */
     bool lookups; /* not the picture is wanted but how many samples each of its pixels took */
 } ang_picture;
 

@@ -11,12 +11,22 @@
 
 /* What of render's options belongs to a picture, beside the preset, which has mode, shading, shift and iso value in it:
  * nothing that names files, and so nothing that a state from elsewhere could have overwritten. */
-static const char *const of_picture[] = {
-    "size",           "view",        "pan",       "zoom",           "projection",    "fov",         "clip",
-    "clip-plane",     "axes",        "cut-plane", "measure",        "background",    "mode",        "method",
-    "step",           "termination", "proxy",     "no-termination", "gradients",     "skipping",    "quads",
-    "classification", "no-skip",     "bricks",    "passes-steps",   "manual-filter", "count-shown", "separate-passes",
-    "show-bricks",    "annotate",    NULL};
+static const char *const of_picture[] = {"size",         "view",
+                                         "pan",          "zoom",
+                                         "projection",   "fov",
+                                         "clip",         "clip-plane",
+                                         "axes",         "cut-plane",
+                                         "measure",      "background",
+                                         "mode",         "method",
+                                         "step",         "termination",
+                                         "proxy",        "no-termination",
+                                         "gradients",    "skipping",
+                                         "quads",        "classification",
+                                         "no-skip",      "bricks",
+                                         "passes-steps", "manual-filter",
+                                         "count-shown",  "separate-passes",
+                                         "show-bricks",  "every",
+                                         "annotate",     NULL};
 
 static bool belongs(const char *name) {
     int i = 0;
@@ -104,6 +114,7 @@ static void effective(const filling *filling, const char *name, char *value, siz
     char number[3][40];
     if (strcmp(name, "step") == 0)
         snprintf(value, size, "%s", ang_json_number_text(picture->render.step_voxels, number[0]));
+    if (strcmp(name, "every") == 0) snprintf(value, size, "%d", picture->every);
     if (strcmp(name, "mode") == 0) snprintf(value, size, "%s", picture->lookups ? "lookups" : "");
     if (strcmp(name, "view") == 0)
         snprintf(value, size, "%s,%s,%s", ang_json_number_text(view->azimuth_deg, number[0]),
@@ -136,11 +147,15 @@ char *ang_picture_state_print(const ang_options *options, const ang_picture *pic
     preset.transfer = (ang_transfer *)scene->transfer;
     filling filling = {.state = ang_state_default, .picture = picture, .method = method, .done = true, .err = err};
     ang_options_each(ANG_VERB_RENDER, options, take, &filling);
-    filling.state.preset = &preset; /* both lent */
+    filling.state.preset = &preset; /* this and the texts are lent */
     filling.state.input_name = name;
+    filling.state.raw_dims = (char *)options->raw_dims;
+    filling.state.raw_type = (char *)options->raw_type;
+    filling.state.raw_spacing = (char *)options->raw_spacing;
     char *text = filling.done ? ang_state_print(&filling.state, ANG_VERSION, err) : NULL;
     filling.state.preset = NULL;
     filling.state.input_name = NULL;
+    filling.state.raw_dims = filling.state.raw_type = filling.state.raw_spacing = NULL;
     ang_state_clear(&filling.state);
     return text;
 }

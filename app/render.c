@@ -83,6 +83,9 @@ static bool open_planned(session *run, ang_error *err) {
     ang_app_budget *budget = &run->summary.budget;
     const ang_render_options given = run->picture.render; /* of which the plan changes some */
     double start = ang_now_ms(), usual = ang_render_options_default.step_voxels;
+    if (run->options->every > 1)
+        ang_notes_add(&run->summary.warnings,
+                      "--every has no effect beside --max-error and --max-time, which choose it");
     if (fabs(run->options->step - usual) > 0)
         ang_notes_add(&run->summary.warnings,
                       "--step has no effect beside --max-error and --max-time, which choose it");
@@ -90,6 +93,7 @@ static bool open_planned(session *run, ang_error *err) {
                              ang_app_progress_sink(run->progress), err))
         return false;
     run->summary.upload_ms = ang_now_ms() - start - budget->planned.planning_ms;
+    run->picture.every = budget->planned.stride;
     run->method = budget->planned.method;
     run->renderer = budget->planned.renderer;
     ang_plan_use(&run->summary.plan, "%s: %s", run->method->name, run->method->title);
@@ -155,7 +159,7 @@ static bool render_frame(session *run, frame_progress *frames, ang_frame_stats *
                          ang_error *err) {
     frames->sink = ang_app_progress_sink(run->progress);
     ang_progress progress = {update_frames, frames};
-    int stride = run->summary.budget.given ? run->summary.budget.planned.stride : 1;
+    int stride = run->picture.every;
     ang_scene scene = stride > 1 ? ang_scene_subset(&run->picture.scene, stride, 0, 0) : run->picture.scene;
     ang_image *image = stride > 1 ? &run->drawn : &run->image;
     if (!image->rgba && !ang_image_create(image, scene.width, scene.height, err)) return false;
@@ -268,6 +272,9 @@ static bool estimate_error(session *run, int frame, ang_error_estimate *estimate
     bool wanted = options->annotate || (options->json && frame == 0);
     *estimate = (ang_error_estimate){.levels = NAN};
     if (!wanted || run->picture.lookups) return true;
+    run->summary.quantisation = ang_render_output_rounding(options, run->picture.scene.background);
+    /* How wrong interpolated pixels are the plan alone knows. */
+    if (run->picture.every > 1 && !run->summary.budget.given) return true;
     if (!ang_error_estimate_make(run->method, run->renderer, &run->picture.scene, &run->picture.render, estimate,
                                  ang_app_progress_sink(run->progress), err))
         return false;
@@ -275,7 +282,6 @@ static bool estimate_error(session *run, int frame, ang_error_estimate *estimate
     if (frame > 0) return true;
     run->summary.estimated = true;
     run->summary.error = *estimate;
-    run->summary.quantisation = ang_render_output_rounding(options, run->picture.scene.background);
     return true;
 }
 
@@ -332,6 +338,8 @@ static float *make_counts(session *run, ang_error *err) {
 static bool render_all(session *run, ang_error *err) {
     const ang_options *options = run->options;
     if (!ang_image_create(&run->image, run->picture.scene.width, run->picture.scene.height, err)) return false;
+    if (run->picture.lookups && run->picture.every > 1)
+        return ang_fail(err, ANG_USAGE, "--every %d: --mode lookups counts every pixel", run->picture.every);
     if (run->picture.lookups && !make_counts(run, err)) return false;
     for (int frame = 0; frame < options->frames; frame++) {
         double milliseconds;

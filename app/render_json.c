@@ -120,6 +120,7 @@ cJSON *ang_picture_json(const ang_picture *picture) {
     add_objects(out, scene->objects);
     ang_json_add_number(out, "step_voxels", picture->render.step_voxels);
     ang_json_add_number(out, "termination", picture->render.termination);
+    if (picture->every > 1) cJSON_AddNumberToObject(out, "every", picture->every);
     return out;
 }
 
@@ -129,7 +130,7 @@ static cJSON *error_json(const ang_picture *picture, const ang_method *method, c
     bool truth = method == &ang_method_reference, known = summary->estimated;
     const ang_error_estimate *e = &summary->error;
     ang_json_add_number(error, "estimate", known ? e->levels : NAN);
-    ang_json_add_number(error, "bound", truth ? 0 : NAN);
+    ang_json_add_number(error, "bound", truth && picture->every <= 1 ? 0 : NAN);
     ang_json_add_number(error, "step_mm", truth ? NAN : summary->stats.step_mm);
     ang_json_add_number(error, "termination_bound",
                         ang_error_termination_bound(method, &picture->scene, picture->render.termination));
@@ -138,7 +139,8 @@ static cJSON *error_json(const ang_picture *picture, const ang_method *method, c
     ang_json_add_number(parts, "termination", known ? e->termination : NAN);
     ang_json_add_number(parts, "filtering", known ? e->filtering : NAN);
     ang_json_add_number(parts, "arithmetic", known ? e->arithmetic : NAN);
-    ang_json_add_number(parts, "interpolation", summary->budget.given ? summary->budget.planned.between.max : 0);
+    double between = picture->every > 1 ? NAN : 0;
+    ang_json_add_number(parts, "interpolation", summary->budget.given ? summary->budget.planned.between.max : between);
     ang_json_add_number(error, "quantisation", summary->quantisation);
     ang_json_add_number(error, "rms", known ? e->rms : NAN);
     ang_json_add_number(error, "p999", known ? e->p999 : NAN);

@@ -39,6 +39,8 @@ static const struct {
     {0x00101010, "AS", MAY},        /* PatientAge */
     {0x00101020, "DS", MAY},        /* PatientSize */
     {0x00101030, "DS", MAY},        /* PatientWeight */
+    {0x00120062, "CS", MAY},        /* PatientIdentityRemoved */
+    {0x00120063, "LO", MAY},        /* DeidentificationMethod */
     {0x0020000D, "UI", MAY},        /* StudyInstanceUID */
     {0x00200010, "SH", IDENTIFIES}, /* StudyID */
     {0x00282110, "CS", HARMLESS},   /* LossyImageCompression */
@@ -201,6 +203,10 @@ static void put_patient(ang_dicom_elements *to, const ang_capture *capture) {
     put(to, capture, 0x00101020);
     put(to, capture, 0x00101030);
     if (!capture->identified) put_deidentification(to);
+    /* A source that was de-identified before stays so. */
+    if (!capture->identified || !value_of(capture, 0x00120062)[0] || !value_of(capture, 0x00120063)[0]) return;
+    put(to, capture, 0x00120062);
+    put(to, capture, 0x00120063);
 }
 
 static void put_series(ang_dicom_elements *to, const ang_capture *capture, const ang_capture_picture *picture) {

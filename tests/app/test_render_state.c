@@ -40,6 +40,8 @@ static void a_picture_is_drawn_again(void **state) {
         "--mode iso --iso 321.7 --fov 20 --size 100x100",
         "--preset ct-bone --shading none --cut-plane axial:30% --size 100x100 --termination 0.9",
         "--mode lookups --method cpu --size 64x64",
+        "--preset cta-head --every 3 --size 64x50",
+        "--preset cta-head --method cpu --max-time 0.01 --size 64x50", /* draws every fourth pixel */
     };
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         static const char *const endings[] = {"png", "exr"};
@@ -57,6 +59,21 @@ static void a_picture_is_drawn_again(void **state) {
             if (!same_files(names[0], names[1])) fail_msg("%s is not drawn again: %s", names[0], scenes[i]);
         }
     }
+}
+
+/* Sizes of raw input are in the picture. */
+static void raw_input_is_read_again(void **state) {
+    (void)state;
+    need_pictures();
+    FILE *file = fopen(FOLDER "/noise.raw", "wb");
+    uint64_t seed = 9;
+    assert_non_null(file);
+    for (int i = 0; i < 12 * 10 * 8; i++) fputc((int)(256 * random_unit(&seed)), file);
+    fclose(file);
+    expect(0, "render " FOLDER "/noise.raw --backend none --raw-dims 12x10x8 --raw-type u8 --raw-spacing 1,1,2 "
+              "--size 40x40" QUIET "/raw.png");
+    expect(0, "render " FOLDER "/noise.raw --backend none --state " FOLDER "/raw.png" QUIET "/raw-again.png");
+    assert_true(same_files("raw.png", "raw-again.png"));
 }
 
 /* As many marks as there may be, with all their digits: more than a command line of this test has room for. */
