@@ -186,10 +186,15 @@ static void a_picture_names_no_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_picture_is_drawn_again),   cmocka_unit_test(long_values_are_carried_whole),
-        cmocka_unit_test(each_frame_carries_its_own), cmocka_unit_test(options_go_first),
-        cmocka_unit_test(what_cannot_be_is_refused),  cmocka_unit_test(other_data_are_told),
-        cmocka_unit_test(a_report_is_of_it),          cmocka_unit_test(a_picture_names_no_files),
+        cmocka_unit_test(a_picture_is_drawn_again),
+        cmocka_unit_test(raw_input_is_read_again),
+        cmocka_unit_test(long_values_are_carried_whole),
+        cmocka_unit_test(each_frame_carries_its_own),
+        cmocka_unit_test(options_go_first),
+        cmocka_unit_test(what_cannot_be_is_refused),
+        cmocka_unit_test(other_data_are_told),
+        cmocka_unit_test(a_report_is_of_it),
+        cmocka_unit_test(a_picture_names_no_files),
     };
     return cmocka_run_group_tests(tests, opening, NULL);
 }
