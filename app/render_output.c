@@ -76,8 +76,7 @@ bool ang_render_output_start(ang_render_output *output, const ang_options *optio
     }
     if (!output->captures) return true;
     ang_load_report_name(report, name);
-    output->begun = true;
-    return ang_capture_begin(&output->capture, report->first_file, options->keep_phi, name, ANG_VERSION, warnings, err);
+    return ang_capture_begin(&output->capture, report->identity, options->keep_phi, name, ANG_VERSION, warnings, err);
 }
 
 static bool write_capture(ang_render_output *output, int frame, const char *path, const ang_image *image,
@@ -118,7 +117,6 @@ bool ang_render_output_finish(ang_render_output *output, ang_error *err) {
 
 void ang_render_output_clear(ang_render_output *output) {
     ang_movie_abandon(output->movie);
-    if (output->begun) ang_capture_clear(&output->capture);
     *output = (ang_render_output){0};
 }
 

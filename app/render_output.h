@@ -10,11 +10,11 @@
 #include "io/load.h"
 #include "io/movie/movie.h"
 
-/* Zero-initialise; clear with ang_render_output_clear. Borrows `options`. */
+/* Zero-initialise; clear with ang_render_output_clear. Borrows `options` and, for captures, the report. */
 typedef struct ang_render_output {
     const ang_options *options;
     ang_movie *movie;
-    bool captures, begun; /* DICOM; its series has been begun */
+    bool captures; /* DICOM */
     ang_capture capture;
 } ang_render_output;
 

@@ -4,6 +4,7 @@
 #include "io/archive/archive.h"
 #include "io/dicom/dicom.h"
 #include "io/dicom/directory.h"
+#include "io/dicom/identity.h"
 #include "io/formats.h"
 #include "io/kind.h"
 #include "io/replace.h"
@@ -32,7 +33,7 @@ void ang_load_report_clear(ang_load_report *report) {
     }
     free(report->series);
     free(report->gaps);
-    free(report->first_file);
+    ang_identity_free(report->identity);
     ang_notes_clear(&report->assumptions);
     ang_notes_clear(&report->warnings);
     *report = (ang_load_report){0};

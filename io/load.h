@@ -78,9 +78,8 @@ typedef struct ang_load_report {
     double rescale_error_hu; /* largest rounding error where slices have different rescale; 0 otherwise */
     double quantisation_hu;  /* step where float input was quantised; 0 otherwise */
     uint64_t nan_count, inf_count;
-    char *first_file;      /* path of the file that the first slice came from, where it can be read again as DICOM; else
-                              NULL.      Identifies. */
-    uint32_t stored_crc32; /* DESIGN.md, "Padding": stored values before padding was replaced */
+    struct ang_identity *identity;      /* of DICOM: patient and study (io/dicom/identity.h); NULL: none */
+    uint32_t stored_crc32;              /* DESIGN.md, "Padding": stored values before padding was replaced */
     double window_centre, window_width; /* first window of the file; NaN where none */
     ang_notes assumptions, warnings;
 } ang_load_report;

@@ -1,8 +1,6 @@
 #include "io/dicom/capture.h"
 
 #include "io/dicom/elements.h"
-#include "io/dicom/parse.h"
-#include "io/dicom/terms.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,91 +8,6 @@
 #include <time.h>
 
 #define SECONDARY_CAPTURE "1.2.840.10008.5.1.4.1.1.7"
-
-/* How an element of the source gets into the picture. */
-typedef enum kind {
-    IDENTIFIES, /* only with keep_phi; type 2, so empty without */
-    MAY,        /* only with keep_phi; absent without or where it is empty */
-    HARMLESS    /* always, where its value is one of the standard's */
-} kind;
-
-/* What is taken over from the source, in order of tags. */
-static const struct {
-    uint32_t tag;
-    char vr[3];
-    kind kind;
-} elements[] = {
-    {0x00080005, "CS", MAY},        /* SpecificCharacterSet */
-    {0x00080020, "DA", IDENTIFIES}, /* StudyDate */
-    {0x00080030, "TM", IDENTIFIES}, /* StudyTime */
-    {0x00080050, "SH", IDENTIFIES}, /* AccessionNumber */
-    {0x00080060, "CS", HARMLESS},   /* Modality */
-    {0x00080090, "PN", IDENTIFIES}, /* ReferringPhysicianName */
-    {0x00081030, "LO", MAY},        /* StudyDescription */
-    {0x00100010, "PN", IDENTIFIES}, /* PatientName */
-    {0x00100020, "LO", IDENTIFIES}, /* PatientID */
-    {0x00100021, "LO", MAY},        /* IssuerOfPatientID */
-    {0x00100030, "DA", IDENTIFIES}, /* PatientBirthDate */
-    {0x00100040, "CS", IDENTIFIES}, /* PatientSex */
-    {0x00101010, "AS", MAY},        /* PatientAge */
-    {0x00101020, "DS", MAY},        /* PatientSize */
-    {0x00101030, "DS", MAY},        /* PatientWeight */
-    {0x00120062, "CS", MAY},        /* PatientIdentityRemoved */
-    {0x00120063, "LO", MAY},        /* DeidentificationMethod */
-    {0x0020000D, "UI", MAY},        /* StudyInstanceUID */
-    {0x00200010, "SH", IDENTIFIES}, /* StudyID */
-    {0x00282110, "CS", HARMLESS},   /* LossyImageCompression */
-};
-enum { COUNT = sizeof elements / sizeof *elements };
-_Static_assert((int)COUNT <= (int)ANG_CAPTURE_ELEMENTS, "ang_capture.value is too short");
-
-static int index_of(uint32_t tag) {
-    int i = 0;
-    while (i < COUNT && elements[i].tag != tag) i++;
-    return i < COUNT ? i : -1;
-}
-
-static const char *value_of(const ang_capture *capture, uint32_t tag) {
-    const char *value = capture->value[index_of(tag)];
-    return value ? value : "";
-}
-
-static bool harmless(uint32_t tag, const char *value) {
-    if (tag == 0x00282110) return strcmp(value, "00") == 0 || strcmp(value, "01") == 0;
-    return strcmp(ang_dicom_modality(value), "other") != 0;
-}
-
-static bool take(ang_capture *capture, ang_dicom_reader *reader, bool keep_phi, ang_error *err) {
-    ang_dicom_element element;
-    char text[ang_dicom_value_size + 1];
-    while (ang_dicom_next(reader, &element) && element.tag < 0x7FE00010) {
-        int i = index_of(element.tag);
-        if (i < 0 || capture->value[i] || (elements[i].kind != HARMLESS && !keep_phi)) continue;
-        if (!ang_dicom_text(reader, &element, text, sizeof text)) continue;
-        if (elements[i].kind == HARMLESS && !harmless(elements[i].tag, text)) continue;
-        capture->value[i] = strdup(text);
-        if (!capture->value[i]) return ang_fail(err, ANG_LIMIT, "no memory for a DICOM file");
-    }
-    return true;
-}
-
-static bool read_source(ang_capture *capture, const char *source, bool keep_phi, bool *found, ang_error *err) {
-    ang_error ignored;
-    ang_dicom_reader *reader = malloc(sizeof *reader);
-    if (!reader) return ang_fail(err, ANG_LIMIT, "no memory for a DICOM file");
-    *found = ang_dicom_open(reader, source, "", &ignored) == ANG_DICOM_FOUND;
-    bool taken = !*found || take(capture, reader, keep_phi, err);
-    ang_dicom_close(reader);
-    free(reader);
-    return taken;
-}
-
-static bool set_value(ang_capture *capture, uint32_t tag, const char *value, ang_error *err) {
-    char **at = &capture->value[index_of(tag)];
-    free(*at);
-    *at = strdup(value);
-    return *at || ang_fail(err, ANG_LIMIT, "no memory for a DICOM file");
-}
 
 static void set_time(ang_capture *capture) {
     time_t now = time(NULL);
@@ -104,39 +17,30 @@ static void set_time(ang_capture *capture) {
     strftime(capture->time, sizeof capture->time, "%H%M%S", &local);
 }
 
-bool ang_capture_begin(ang_capture *capture, const char *source, bool keep_phi, const char *pseudonym,
+bool ang_capture_begin(ang_capture *capture, const ang_identity *source, bool keep_phi, const char *pseudonym,
                        const char *program, ang_notes *warnings, ang_error *err) {
-    *capture = (ang_capture){0};
-    bool found = false;
-    if (source && !read_source(capture, source, keep_phi, &found, err)) return false;
-    capture->identified = keep_phi && found;
+    *capture = (ang_capture){.source = source, .identified = keep_phi && source};
     snprintf(capture->program, sizeof capture->program, "%s", program);
-    if (keep_phi && !found)
+    snprintf(capture->pseudonym, sizeof capture->pseudonym, "%s", pseudonym);
+    if (keep_phi && !source)
         ang_notes_add(warnings, "the input has no DICOM header with patient and study: the secondary capture has none");
     if (!ang_dicom_random_uid(capture->study_uid) || !ang_dicom_random_uid(capture->series_uid))
         return ang_fail(err, ANG_OUTPUT, "the system has no random numbers for new UIDs");
-    const char *study = value_of(capture, 0x0020000D);
+    const char *study = ang_identity_value(source, 0x0020000D);
     if (capture->identified && study[0] && strlen(study) < sizeof capture->study_uid)
         strcpy(capture->study_uid, study);
     else if (capture->identified)
         ang_notes_add(warnings, "the input has no StudyInstanceUID: the secondary capture begins a study of its own");
     set_time(capture);
-    if (capture->identified) return true;
-    char name[80];
-    snprintf(name, sizeof name, "Anonymous^%.60s", pseudonym);
-    return set_value(capture, 0x00100010, name, err) && set_value(capture, 0x00100020, pseudonym, err);
-}
-
-void ang_capture_clear(ang_capture *capture) {
-    for (int i = 0; i < COUNT; i++) free(capture->value[i]);
-    *capture = (ang_capture){0};
+    return true;
 }
 
 /* One element of the source, as it was or as its type asks for. */
 static void put(ang_dicom_elements *to, const ang_capture *capture, uint32_t tag) {
-    int i = index_of(tag);
-    const char *value = value_of(capture, tag);
-    if (value[0] || elements[i].kind == IDENTIFIES) ang_elements_text(to, tag, elements[i].vr, value);
+    ang_identity_kind kind;
+    const char *vr = ang_identity_element(tag, &kind), *value = ang_identity_value(capture->source, tag);
+    if (!capture->identified && kind != ANG_IDENTITY_HARMLESS) value = "";
+    if (value[0] || kind == ANG_IDENTITY_NAMES) ang_elements_text(to, tag, vr, value);
 }
 
 /* ST of ASCII: whatever the character set, that is in it. */
@@ -165,7 +69,7 @@ static void put_deidentification(ang_dicom_elements *to) {
 
 static void put_identification(ang_dicom_elements *to, const ang_capture *capture, const ang_capture_picture *picture,
                                const char *instance) {
-    const char *modality = value_of(capture, 0x00080060);
+    const char *modality = ang_identity_value(capture->source, 0x00080060);
     if (capture->identified)
         put(to, capture, 0x00080005);
     else
@@ -194,17 +98,21 @@ static void put_identification(ang_dicom_elements *to, const ang_capture *captur
 }
 
 static void put_patient(ang_dicom_elements *to, const ang_capture *capture) {
-    put(to, capture, 0x00100010);
-    put(to, capture, 0x00100020);
-    put(to, capture, 0x00100021);
-    put(to, capture, 0x00100030);
-    put(to, capture, 0x00100040);
-    put(to, capture, 0x00101010);
-    put(to, capture, 0x00101020);
-    put(to, capture, 0x00101030);
+    static const uint32_t tags[] = {0x00100010, 0x00100020, 0x00100021, 0x00100030,
+                                    0x00100040, 0x00101010, 0x00101020, 0x00101030};
+    char name[80];
+    snprintf(name, sizeof name, "Anonymous^%s", capture->pseudonym);
+    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++) {
+        bool made_up = !capture->identified && i < 2;
+        if (made_up)
+            ang_elements_text(to, tags[i], i == 0 ? "PN" : "LO", i == 0 ? name : capture->pseudonym);
+        else
+            put(to, capture, tags[i]);
+    }
     if (!capture->identified) put_deidentification(to);
     /* A source that was de-identified before stays so. */
-    if (!capture->identified || !value_of(capture, 0x00120062)[0] || !value_of(capture, 0x00120063)[0]) return;
+    const ang_identity *source = capture->source;
+    if (!ang_identity_value(source, 0x00120062)[0] || !ang_identity_value(source, 0x00120063)[0]) return;
     put(to, capture, 0x00120062);
     put(to, capture, 0x00120063);
 }

@@ -4,16 +4,16 @@
 
 #include "core/base/error.h"
 #include "core/base/notes.h"
+#include "io/dicom/identity.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { ANG_CAPTURE_ELEMENTS = 24 };
-
-/* What all pictures of one series have: patient and study. Owns the values; clear with ang_capture_clear. */
+/* What all pictures of one series have: patient and study. Plain value that borrows `source`. */
 typedef struct ang_capture {
-    bool identified;                   /* patient and study are the source's */
-    char *value[ANG_CAPTURE_ELEMENTS]; /* of the elements that capture.c lists, as the source's bytes; NULL: none */
+    bool identified;            /* patient and study are the source's */
+    const ang_identity *source; /* NULL: none */
+    char pseudonym[64];         /* without them, the patient's id and a part of his name */
     char study_uid[65], series_uid[65];
     char date[9], time[7]; /* of this capture */
     char program[64];      /* name and version */
@@ -23,11 +23,10 @@ typedef struct ang_capture {
  * with its character set, and the new series lies in its study; what cannot be had is left empty and said in
  * `warnings`. Without, all that PS3.15 table E.1-1 (Basic Application Level Confidentiality Profile) removes or
  * replaces is absent, empty or made up: the study is a new one, patient's name and id are `pseudonym`, there are no
- * dates, and the file says by which profile. False with ANG_LIMIT, ANG_OUTPUT (no random numbers). Thread safe but for
+ * dates, and the file says by which profile. False with ANG_OUTPUT (no random numbers). Thread safe but for
  * the time zone. */
-bool ang_capture_begin(ang_capture *capture, const char *source, bool keep_phi, const char *pseudonym,
+bool ang_capture_begin(ang_capture *capture, const ang_identity *source, bool keep_phi, const char *pseudonym,
                        const char *program, ang_notes *warnings, ang_error *err);
-void ang_capture_clear(ang_capture *capture);
 
 /* One picture. */
 typedef struct ang_capture_picture {

@@ -3,6 +3,7 @@
 #include "core/base/memory.h"
 #include "io/dicom/assemble.h"
 #include "io/dicom/choose.h"
+#include "io/dicom/identity.h"
 #include "io/dicom/listing.h"
 #include "io/dicom/parse.h"
 #include "io/dicom/remarks.h"
@@ -117,7 +118,7 @@ static ang_volume *build(const ang_dicom_listing *listing, ang_dicom_group *grou
             if (volume) {
                 take_grid(&grid, first, report);
                 report->slices_read = (int)count;
-                report->first_file = strdup(folder->paths[first->file]); /* NULL: it is as if it could not be read */
+                report->identity = ang_identity_read(folder->paths[first->file]);
                 ang_notes_append(&report->assumptions, &assumptions);
                 ang_notes_append(&report->warnings, &warnings);
             } else {
