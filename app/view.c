@@ -139,6 +139,16 @@ static bool delete_preset(void *context, const char *name, ang_error *err) {
     return ang_view_preset_delete(&((view *)context)->presets, name, err);
 }
 
+static bool is_preset_file(void *context, const char *file) {
+    (void)context;
+    return ang_view_preset_is_file(file);
+}
+
+static bool import_presets(void *context, const char *file, char *first, size_t first_size, char *said,
+                           size_t said_size, ang_error *err) {
+    return ang_view_preset_import(&((view *)context)->presets, file, first, first_size, said, said_size, err);
+}
+
 /* Only what has changed is written. */
 static void shown(void *context, const ang_viewer_state *state) {
     view *view = context;
@@ -205,6 +215,8 @@ static bool run(view *view, ang_error *err) {
                             .open_state = open_state,
                             .session = session,
                             .delete_preset = delete_preset,
+                            .is_preset_file = is_preset_file,
+                            .import_presets = import_presets,
                             .shown = options->write_state ? shown : NULL,
                             .remember = remember,
                             .full_path = full_path,

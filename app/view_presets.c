@@ -1,5 +1,6 @@
 #include "app/view_presets.h"
 
+#include "app/presets.h"
 #include "app/verbs.h"
 #include "app/view_state.h"
 #include "io/preset.h"
@@ -70,4 +71,53 @@ bool ang_view_preset_delete(void *context, const char *name, ang_error *err) {
     bool deleted = ang_preset_own_delete(name, err);
     if (deleted) read_again(context);
     return deleted;
+}
+
+bool ang_view_preset_is_file(const char *file) { return ang_property_form_of(file) != ANG_PROPERTY_NONE; }
+
+/* A name that no preset of the user's own has: "CT-AAA", "CT-AAA 2", ... */
+static bool free_name(const char *wanted, char *name, size_t size) {
+    snprintf(name, size, "%s", wanted);
+    for (int i = 2; i < 1000 && ang_preset_own_exists(name); i++)
+        snprintf(name, size, "%.*s %d", ANG_PRESET_NAME_LENGTH - 4, wanted, i);
+    return !ang_preset_own_exists(name);
+}
+
+static bool import_one(const char *file, const ang_property *property, char *name, size_t size, ang_notes *notes,
+                       ang_error *err) {
+    ang_preset *preset;
+    char path[4200];
+    if (!ang_app_preset_import(file, property, &preset, notes, err)) return false;
+    bool named = free_name(preset->name, name, size) ||
+                 ang_fail(err, ANG_USAGE, "there are too many presets called %s", preset->name);
+    free(preset->name);
+    preset->name = strdup(name);
+    char *text = named && preset->name ? ang_preset_print(preset, err) : NULL;
+    bool saved = text && ang_preset_own_save(name, text, path, sizeof path, err);
+    free(text);
+    ang_preset_free(preset);
+    return saved;
+}
+
+bool ang_view_preset_import(void *context, const char *file, char *first, size_t first_size, char *said,
+                            size_t said_size, ang_error *err) {
+    ang_property_list list;
+    ang_notes notes = {0};
+    size_t done = 0;
+    if (!ang_property_read(file, &list, err)) return false;
+    for (; done < list.count; done++) {
+        char name[ANG_PRESET_NAME_LENGTH + 1];
+        if (!import_one(file, &list.item[done], name, sizeof name, &notes, err)) break;
+        if (done == 0) snprintf(first, first_size, "%s", name);
+    }
+    read_again(context);
+    ang_app_say(&notes, "note: ", NULL);
+    int used = snprintf(said, said_size, "Imported %zu preset%s", done, ang_plural((long long)done));
+    /* What is said first is about a preset; what is assumed of all comes behind. */
+    for (size_t i = 0; i < notes.count && (size_t)used < said_size; i++)
+        used += snprintf(said + used, said_size - (size_t)used, "%s%s", i ? "; " : ": ", notes.text[i]);
+    bool all = done == list.count;
+    ang_notes_clear(&notes);
+    ang_property_list_clear(&list);
+    return all;
 }

@@ -25,6 +25,9 @@ void ang_view_presets_clear(ang_view_presets *presets);
 ang_preset_place ang_view_preset_place(void *context, const char *name);
 bool ang_view_preset_save(void *context, const ang_document *document, const char *name, const char *description,
                           char *path, size_t size, ang_error *err);
+bool ang_view_preset_is_file(const char *file);
+bool ang_view_preset_import(void *context, const char *file, char *first, size_t first_size, char *said,
+                            size_t said_size, ang_error *err);
 bool ang_view_preset_delete(void *context, const char *name, ang_error *err);
 
 #endif

@@ -150,6 +150,12 @@ typedef struct ang_viewer_host {
                         char *path, size_t size, ang_error *err);
     /* One of the user's own. */
     bool (*delete_preset)(void *context, const char *name, ang_error *err);
+    /* Whether a file holds presets of another program, by its name. */
+    bool (*is_preset_file)(void *context, const char *file);
+    /* Makes its presets the user's own, none written over, and reads all `presets` again. The name of the first goes to
+     * `first`; how many they are and what was lost on the way, in a sentence or two, to `said`. */
+    bool (*import_presets)(void *context, const char *file, char *first, size_t first_size, char *said,
+                           size_t said_size, ang_error *err);
     /* Told after each frame after which something differs; NULL: not wanted. */
     void (*shown)(void *context, const ang_viewer_state *state);
     /* Keeps settings for the next run; NULL: not wanted. */

@@ -190,6 +190,30 @@ static void loading_is_cancelled_or_replaced(void **state) {
     expect_text("phase", "ready");
 }
 
+/* Presets of 3D Slicer are imported where other files are opened; what is shown stays. */
+static void a_preset_file_is_imported(void **state) {
+    (void)state;
+    need_window();
+    FILE *file = fopen(FOLDER "/theirs.xml", "w");
+    assert_non_null(file);
+    fputs("<MRML><VolumeProperty name='CT-Theirs' scalarOpacity='4 100 0 300 0.5' colorTransfer='4 100 1 0 0'/></MRML>",
+          file);
+    fclose(file);
+    double slices = number_now("axial.slices");
+    drop(FOLDER "/theirs.xml");
+    expect_text("preset.name", "CT-Theirs");
+    expect_number("preset.points.1.opacity", 0.5, 0);
+    expect_number("axial.slices", slices, 0);
+    assert_true(exists(FOLDER "/config/angioscope/presets/CT-Theirs.json"));
+    /* Once more: the first is not written over. By keys. */
+    hands("key ctrl+o");
+    expect_text("open", "files");
+    type(FOLDER "/theirs.xml");
+    hands("key --delay 150 Return");
+    expect_text("preset.name", "CT-Theirs 2");
+    expect_text("open", "");
+}
+
 /* The slice that is missing is interpolated, and all is said. */
 static void one_broken_file_costs_a_warning(void **state) {
     (void)state;
@@ -213,6 +237,7 @@ int main(void) {
         cmocka_unit_test(the_second_series_is_chosen_by_hand),
         cmocka_unit_test(what_is_dropped_opens),
         cmocka_unit_test(loading_is_cancelled_or_replaced),
+        cmocka_unit_test(a_preset_file_is_imported),
         cmocka_unit_test(one_broken_file_costs_a_warning),
     };
     return cmocka_run_group_tests(tests, opening, close_display);

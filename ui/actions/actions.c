@@ -137,6 +137,8 @@ static const ang_action actions[] = {
     {"File", "Save picture of the window", NULL, 'S', C | S, ang_shot_ask_window, 0, false, NULL, NULL},
     {"File", "Save preset...", "what is shown, as a preset of your own, by name", 'P', C, save_preset, 0, false,
      is_ready, NULL},
+    {"File", "Import preset...", "from 3D Slicer (.vp, .vp.json, presets.xml); or drop the file on the window", 0, 0,
+     ask_path, 0, false, NULL, NULL},
     {"File", "Open state...", "a saved state, with the data that it is of", 'O', C | A, ask_path, 0, true, NULL, NULL},
     {"File", "Save state", "all that is shown, and where its data are: to go on later, and for render --state", 'S',
      C | A, save_state, 0, false, is_ready, NULL},

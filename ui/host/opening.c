@@ -1,6 +1,7 @@
 #include "ui/host/opening.h"
 
 #include "core/base/memory.h"
+#include "ui/host/preset_files.h"
 #include "ui/host/state_files.h"
 #include "ui/panes/planes.h"
 #include "ui/study.h"
@@ -42,6 +43,10 @@ static void start(ang_viewer *viewer, ang_source *source) {
 }
 
 void ang_viewer_open_source(ang_viewer *viewer, ang_source *source) {
+    if (source->count == 1 && ang_preset_file_take(viewer, source->paths[0])) {
+        ang_source_clear(source);
+        return;
+    }
     if (viewer->loading.running) {
         /* It stops soon; the window does not wait for it. */
         ang_loading_stop(&viewer->loading);

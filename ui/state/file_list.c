@@ -53,14 +53,20 @@ bool ang_file_list_is_series(const ang_file_list *list) {
     return images;
 }
 
+static bool ends_in(const char *name, const char *ending) {
+    size_t length = strlen(name), end = strlen(ending);
+    return length > end && strcasecmp(name + length - end, ending) == 0;
+}
+
+bool ang_name_could_be_preset(const char *name) {
+    return ends_in(name, ".vp") || ends_in(name, ".vp.json") || ends_in(name, ".xml");
+}
+
 bool ang_name_could_be_image(const char *name) {
     static const char *const endings[] = {".dcm",  ".dicom", ".ima", ".nii", ".nii.gz", ".hdr",  ".raw", ".raw.gz",
                                           ".nrrd", ".nhdr",  ".mha", ".mhd", ".tif",    ".tiff", ".png", ".zip"};
-    size_t length = strlen(name);
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        size_t end = strlen(endings[i]);
-        if (length > end && strcasecmp(name + length - end, endings[i]) == 0) return true;
-    }
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        if (ends_in(name, endings[i])) return true;
     const char *dot = strrchr(name, '.');
     return !dot || (dot[1] && digits(dot + 1) == strlen(dot + 1));
 }
@@ -69,7 +75,7 @@ static bool begins_with(const char *name, const char *typed) { return strncasecm
 
 static bool is_listed(const ang_file_entry *entry, ang_file_filter filter, const char *typed) {
     if (entry->name[0] == '.' && !filter.hidden && typed[0] != '.') return false;
-    return entry->folder || entry->image || is_own(entry->name) || filter.all;
+    return entry->folder || entry->image || is_own(entry->name) || ang_name_could_be_preset(entry->name) || filter.all;
 }
 
 size_t ang_file_list_show(const ang_file_list *list, ang_file_filter filter, const char *typed, size_t *shown) {

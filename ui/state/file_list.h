@@ -31,6 +31,9 @@ bool ang_file_list_is_series(const ang_file_list *list);
  * files named by a UID have. */
 bool ang_name_could_be_image(const char *name);
 
+/* Whether a file of this name could hold presets of 3D Slicer. */
+bool ang_name_could_be_preset(const char *name);
+
 /* What is listed. */
 typedef struct ang_file_filter {
     bool hidden; /* names that begin with a dot too */
