@@ -1,8 +1,9 @@
-# Two commands do everything: `make demo` and `make test`; `make install` and `make package` pass it on (docs/install.md). The build itself is CMake's: see CMakePresets.json.
-PACKAGES := build-essential cmake ninja-build pkg-config python3 python3-glad zlib1g-dev libbz2-dev libzip-dev libpng-dev libcjson-dev libcmocka-dev \
-	libgdcm-dev libseccomp-dev libnifti-dev libopenimageio-dev libopencv-dev libosmesa6-dev libegl-dev libegl1 libgl1-mesa-dri \
-	libglfw3-dev libx11-dev libimgui-dev xvfb xdotool fonts-dejavu-core gnuplot-nox ffmpeg dicom3tools dcm2niix clang-format \
-	clang libclang-rt-14-dev
+# Two commands do everything: `make demo` and `make test`; `make install` and `make package` pass it on (docs/install.md).
+# The build itself is CMake's: see CMakePresets.json.
+PACKAGES := build-essential cmake ninja-build pkg-config python3 python3-glad zlib1g-dev libbz2-dev libzip-dev libpng-dev \
+	libcjson-dev libcmocka-dev libgdcm-dev libseccomp-dev libnifti-dev libopenimageio-dev libopencv-dev libosmesa6-dev \
+	libegl-dev libegl1 libgl1-mesa-dri libglfw3-dev libx11-dev libimgui-dev xvfb xdotool fonts-dejavu-core gnuplot-nox ffmpeg \
+	dicom3tools dcm2niix zsh fish man-db clang-format clang libclang-rt-14-dev
 DEMO := demo
 PREFIX := /usr/local
 

@@ -27,8 +27,8 @@ enum { MOST_FILES = 9999 };
 typedef struct view {
     const ang_options *options;
     ang_view_presets presets;
-    char *state; /* as last written; NULL: not yet */
-    bool state_failed;
+    char *state;                        /* as last written; NULL: not yet */
+    bool state_failed, settings_failed; /* when last written */
     ang_waiting waiting;
     ang_viewer_settings settings;
 } view;
@@ -159,17 +159,20 @@ static void shown(void *context, const ang_viewer_state *state) {
         return;
     }
     ang_error err = {0};
-    if (!ang_file_replace(view->options->write_state, text, strlen(text), &err) && !view->state_failed) {
-        fprintf(stderr, "angioscope: %s\n", err.message);
-        view->state_failed = true;
-    }
+    bool written = ang_file_replace(view->options->write_state, text, strlen(text), &err);
+    if (!written && !view->state_failed) fprintf(stderr, "angioscope: %s\n", err.message);
+    view->state_failed = !written;
     free(view->state);
     view->state = text;
 }
 
 static void remember(void *context, const ang_viewer_settings *settings) {
-    (void)context;
-    ang_view_preferences_write(settings);
+    view *view = context;
+    ang_error err = {0};
+    bool written = ang_view_preferences_write(settings, &err);
+    if (!written && !view->settings_failed)
+        fprintf(stderr, "warning: %s; layout and recent files will be forgotten\n", err.message);
+    view->settings_failed = !written;
 }
 
 static bool full_path(void *context, const char *path, char *full, size_t size) {
@@ -189,6 +192,7 @@ static bool run(view *view, ang_error *err) {
     if (!getcwd(folder, sizeof folder)) snprintf(folder, sizeof folder, "/");
     int size[2] = {0};
     if (options->size && !ang_app_parse_dims("size", options->size, 2, 16384, size, err)) return false;
+    if (options->write_state && !ang_file_replaceable(options->write_state, err)) return false;
     how.width = size[0];
     how.height = size[1];
     how.scale = options->scale;
@@ -237,6 +241,7 @@ int ang_app_view(const ang_options *options, ang_error *err) {
     ang_view_presets_clear(&view.presets);
     free(view.state);
     ang_waiting_clear(&view.waiting);
+    if (done && view.state_failed) return ANG_OUTPUT; /* said when it failed */
     return done ? ANG_OK : (int)err->code;
 }
 

@@ -28,7 +28,7 @@ void ang_view_preferences_read(ang_viewer_settings *settings) {
     memcpy(settings->recent.path, kept.recent, sizeof kept.recent);
 }
 
-void ang_view_preferences_write(const ang_viewer_settings *settings) {
+bool ang_view_preferences_write(const ang_viewer_settings *settings, ang_error *err) {
     ang_preferences kept = {.light_theme = settings->light_theme,
                             .split_across = settings->layout.across,
                             .split_down = settings->layout.down,
@@ -41,5 +41,5 @@ void ang_view_preferences_write(const ang_viewer_settings *settings) {
                             .recent_count = settings->recent.count};
     memcpy(kept.recent, settings->recent.path, sizeof kept.recent);
     char path[PATH];
-    if (ang_preferences_path(path, sizeof path)) ang_preferences_write(path, &kept, NULL);
+    return !ang_preferences_path(path, sizeof path) || ang_preferences_write(path, &kept, err);
 }

@@ -4,8 +4,10 @@ include(GNUInstallDirs)
 
 install(TARGETS angioscope RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/presets DESTINATION ${CMAKE_INSTALL_DATADIR}/angioscope COMPONENT runtime)
-# A component of its own: Debian's packages have the licence in the file that Debian asks for.
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
+# A component of its own, "plain": what Debian's packages have elsewhere (package.cmake).
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT plain)
+install(FILES ${CMAKE_BINARY_DIR}/manual/angioscope.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+        RENAME _angioscope COMPONENT plain)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime FILES_MATCHING PATTERN "*.md")
 
 # Manual pages are kept compressed; -n, so that the same page gives the same file.
@@ -23,7 +25,6 @@ function(install_completion shell folder name)
             RENAME ${name} COMPONENT runtime)
 endfunction()
 install_completion(bash bash-completion/completions angioscope)
-install_completion(zsh zsh/vendor-completions _angioscope)
 install_completion(fish fish/vendor_completions.d angioscope.fish)
 if(ANG_WINDOW)
     install(FILES cmake/desktop/angioscope.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT runtime)

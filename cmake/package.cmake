@@ -36,7 +36,7 @@ Angioscope is not a medical device and not for diagnosis.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libangioscope-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 if(ANG_WITH_OPENCV)
-    set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libopencv-core-dev, libopencv-imgproc-dev")
+    set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libopencv-core-dev, libopencv-imgproc-dev, libstdc++-12-dev | libstdc++-dev")
 endif()
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
     "volume rendering of CT and CT angiography as a library
@@ -64,4 +64,6 @@ foreach(component IN ITEMS RUNTIME DEVELOPMENT)
     install(FILES ${CMAKE_BINARY_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
             COMPONENT ${lower} EXCLUDE_FROM_ALL)
 endforeach()
+install(FILES ${CMAKE_BINARY_DIR}/manual/angioscope.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions
+        RENAME _angioscope COMPONENT runtime EXCLUDE_FROM_ALL)
 include(CPack)

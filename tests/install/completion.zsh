@@ -6,7 +6,7 @@ touch $folder/zsh_file.png
 mkdir -p $folder/zsh_folder
 zpty shell "env TERM=dumb ZDOTDIR=$folder/home zsh -f -i"
 # What ^X does: writes the line into a file, under another name first, so that it is whole when it is seen.
-zpty -w shell "PS1=; cd $folder; fpath=($share/zsh/vendor-completions \$fpath); autoload -Uz compinit; compinit -u -D; \
+zpty -w shell "PS1=; cd $folder; fpath=($share/zsh/site-functions \$fpath); autoload -Uz compinit; compinit -u -D; \
 zstyle ':completion:*' list-prompt ''; show() { print -r -- \"\$BUFFER\" >$line.new; mv $line.new $line; BUFFER= }; \
 zle -N show; bindkey '^X' show; bindkey '^I' complete-word; LISTMAX=10000"
 # expect WHAT IS TYPED, WHAT THEN STANDS THERE
@@ -38,7 +38,7 @@ expect 'angioscope phantom zsh_fi' 'angioscope phantom zsh_fi'
 for list in $folder/options/*; do
     verb=${list:t}
     for name in $(<$list); do
-        grep -qF -e "${name}=[" -e "${name}[" -e ",${name}=}" -e ",${name}}" <(sed -n "/^    $verb)/,/^        ;;/p" $share/zsh/vendor-completions/_angioscope) && continue
+        grep -qF -e "${name}=[" -e "${name}[" -e ",${name}=}" -e ",${name}}" <(sed -n "/^    $verb)/,/^        ;;/p" $share/zsh/site-functions/_angioscope) && continue
         print "zsh: $verb does not offer $name"
         failed=1
     done
