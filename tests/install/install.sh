@@ -40,6 +40,10 @@ if grep -q '^ANG_WITH_GDCM:BOOL=ON' "$build/CMakeCache.txt"; then
     fi
 fi
 
+if grep -q '^ANG_WITH_OPENCV:BOOL=ON' "$build/CMakeCache.txt" && [ -d "$stage/phantom" ]; then
+    program render "$stage/phantom" -o "$stage/film.avi" --size 32x32 --frames 2 --orbit 9 --quiet || complain "no film is written"
+fi
+
 # The manual page and the completions name every verb and option that the program knows.
 gzip -dc "$root/share/man/man1/angioscope.1.gz" >"$stage/angioscope.1"
 sed 's/\\%//g; s/\\-/-/g; s/\\f[BIR]//g' "$stage/angioscope.1" >"$stage/manual.txt"
