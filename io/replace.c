@@ -143,27 +143,40 @@ bool ang_file_replaceable(const char *path, ang_error *err) {
     return find_target(path, target, err);
 }
 
-bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err) {
-    char target[PATH_MAX], temporary[PATH_MAX];
-    if (!find_target(path, target, err)) return false;
-    int file = open_temporary(target, "", temporary, sizeof temporary);
-    if (file < 0) return fail(path, errno, err);
-
+/* A whole file beside `target`, on the disk. What is wrong is said of `path`. */
+static bool write_beside(const char *path, const char *target, const void *data, size_t size, char *temporary,
+                         size_t room, ang_error *err) {
+    int file = open_temporary(target, "", temporary, room);
+    if (file < 0) {
+        temporary[0] = '\0';
+        return fail(path, errno, err);
+    }
     bool good = write_all(file, data, size);
     int reason = errno;
     if (close(file) != 0 && good) {
         good = false;
         reason = errno;
     }
-    if (good && rename(temporary, target) != 0) {
-        good = false;
-        reason = errno;
-    }
-    if (!good) {
-        unlink(temporary);
-        return fail(path, reason, err);
-    }
-    return true;
+    if (good) return true;
+    unlink(temporary);
+    temporary[0] = '\0';
+    return fail(path, reason, err);
+}
+
+bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err) {
+    char target[PATH_MAX], temporary[PATH_MAX];
+    if (!find_target(path, target, err) || !write_beside(path, target, data, size, temporary, sizeof temporary, err))
+        return false;
+    if (rename(temporary, target) == 0) return true;
+    int reason = errno;
+    unlink(temporary);
+    return fail(path, reason, err);
+}
+
+bool ang_file_prepare(const char *path, const void *data, size_t size, char *temporary, size_t room, ang_error *err) {
+    char target[PATH_MAX];
+    temporary[0] = '\0';
+    return find_target(path, target, err) && write_beside(path, target, data, size, temporary, room, err);
 }
 
 bool ang_file_temporary(const char *path, const char *ending, char *temporary, size_t size, ang_error *err) {

@@ -19,9 +19,11 @@ bool ang_file_replace(const char *path, const void *data, size_t size, ang_error
  * Thread safe. */
 bool ang_file_replaceable(const char *path, ang_error *err);
 
-/* The same for files that others write. First a temporary file of no bytes is made in the folder of `path`, its name
- * with `ending` (such as ".mp4") behind; false with ANG_OUTPUT. Once it is written, the second flushes it to the disk
- * and renames it over `path`; false with ANG_OUTPUT, and then the temporary file is the caller's to remove. */
+/* The same in two steps, for files that belong together or that others write. First a temporary file is made in the
+ * folder of `path`, with these bytes, or empty with `ending` (such as ".mp4") behind its name; false with ANG_OUTPUT,
+ * and then there is none and `temporary` is empty. Once all is written, ang_file_rename flushes it to the disk and
+ * renames it over `path`; false with ANG_OUTPUT, and then the temporary file is the caller's to remove. */
+bool ang_file_prepare(const char *path, const void *data, size_t size, char *temporary, size_t room, ang_error *err);
 bool ang_file_temporary(const char *path, const char *ending, char *temporary, size_t size, ang_error *err);
 bool ang_file_rename(const char *temporary, const char *path, ang_error *err);
 

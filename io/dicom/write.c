@@ -1,13 +1,15 @@
 #include "io/dicom/write.h"
 
-#include "core/base/notes.h"
+#include "core/base/memory.h"
 #include "io/dicom/encode.h"
 #include "io/replace.h"
 
 #include <dirent.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct uid {
     char text[65];
@@ -216,6 +218,46 @@ static bool refuse_mixture(const char *folder, int slices, ang_error *err) {
     return good;
 }
 
+#ifdef ANG_WITH_GDCM
+static bool path_of(const char *folder, int z, char *path, size_t size, ang_error *err) {
+    return snprintf(path, size, "%s/IM%04d.dcm", folder, z + 1) < (int)size ||
+           ang_fail(err, ANG_OUTPUT, "%s: the name is too long; choose another place", folder);
+}
+
+/* *prepared becomes the name of the slice's temporary file, to be freed. */
+static bool prepare_slice(const series *s, const char *folder, int z, char **prepared, ang_error *err) {
+    char path[PATH_MAX], temporary[PATH_MAX];
+    unsigned char *file = NULL;
+    size_t size = 0;
+    bool good = path_of(folder, z, path, sizeof path, err) && encode_slice(s, z, &file, &size, err) &&
+                ang_file_prepare(path, file, size, temporary, sizeof temporary, err);
+    free(file);
+    if (!good) return false;
+    *prepared = strdup(temporary);
+    if (*prepared) return true;
+    unlink(temporary);
+    return ang_fail(err, ANG_LIMIT, "no memory for the names of slices");
+}
+
+/* All are on the disk before the first takes its name: an earlier series is whole until the new one is. */
+static bool write_slices(const series *s, const char *folder, char **prepared, int count, const ang_progress *progress,
+                         ang_error *err) {
+    for (int z = 0; z < count; z++) {
+        if (!ang_progress_update(progress, "writing slices", (double)z / count))
+            return ang_fail(err, ANG_INTERRUPTED, "%s: interrupted; no slice was written", folder);
+        if (!prepare_slice(s, folder, z, &prepared[z], err)) return false;
+    }
+    for (int z = 0; z < count; z++) {
+        char path[PATH_MAX];
+        if (!path_of(folder, z, path, sizeof path, err) || !ang_file_rename(prepared[z], path, err)) return false;
+        free(prepared[z]);
+        prepared[z] = NULL;
+    }
+    ang_progress_update(progress, "writing slices", 1);
+    return true;
+}
+#endif
+
 bool ang_dicom_write(const char *folder, const ang_volume *volume, uint64_t seed, const ang_progress *progress,
                      ang_error *err) {
 #ifndef ANG_WITH_GDCM
@@ -223,26 +265,17 @@ bool ang_dicom_write(const char *folder, const ang_volume *volume, uint64_t seed
     return ang_fail(err, ANG_USAGE, "%s: this build has no GDCM (ANG_WITH_GDCM), which writes DICOM", folder);
 #else
     series s;
-    if (!plan_series(volume, seed, &s, err) || !ang_folder_make(folder, err) ||
-        !refuse_mixture(folder, volume->dims[2], err)) {
+    int count = volume->dims[2];
+    if (!plan_series(volume, seed, &s, err) || !ang_folder_make(folder, err) || !refuse_mixture(folder, count, err))
         return false;
+    char **prepared = ang_alloc((size_t)count, sizeof *prepared, "slices", err);
+    if (!prepared) return false;
+    bool good = write_slices(&s, folder, prepared, count, progress, err);
+    for (int z = 0; z < count; z++) {
+        if (prepared[z]) unlink(prepared[z]);
+        free(prepared[z]);
     }
-    for (int z = 0; z < volume->dims[2]; z++) {
-        if (!ang_progress_update(progress, "writing slices", (double)z / volume->dims[2])) {
-            return ang_fail(err, ANG_INTERRUPTED, "%s: interrupted after %d of %d slice%s", folder, z, volume->dims[2],
-                            ang_plural(volume->dims[2]));
-        }
-        char path[4096];
-        if (snprintf(path, sizeof path, "%s/IM%04d.dcm", folder, z + 1) >= (int)sizeof path) {
-            return ang_fail(err, ANG_OUTPUT, "%s: the name is too long; choose another place", folder);
-        }
-        unsigned char *file = NULL;
-        size_t size = 0;
-        bool good = encode_slice(&s, z, &file, &size, err) && ang_file_replace(path, file, size, err);
-        free(file);
-        if (!good) return false;
-    }
-    ang_progress_update(progress, "writing slices", 1);
-    return true;
+    free(prepared);
+    return good;
 #endif
 }

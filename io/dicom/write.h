@@ -10,10 +10,11 @@
  * (DICOM PS3.3 A.3) a slice along the volume's z axis: Explicit VR Little Endian, 16 bits unsigned, stored values as
  * they are with slope and intercept, positions from the affine (a sheared affine becomes a tilted gantry's positions).
  * Padding is written as the -1000 HU it has become. The patient is "Phantom^Angioscope", dates are fixed, and the UIDs
- * (2.25, PS3.5 B.2) follow from `seed` and the contents: the same volume gives the same bytes. Each file appears whole
- * or not at all. False with ANG_OUTPUT (a folder that cannot be written, or that holds IM files which would be mixed
- * into the series), ANG_GEOMETRY (rows and columns not at right angles or no length, which the image plane module
- * cannot state), ANG_USAGE (a build without GDCM), ANG_LIMIT, ANG_INTERRUPTED. Thread safe for different folders. */
+ * (2.25, PS3.5 B.2) follow from `seed` and the contents: the same volume gives the same bytes. All are
+ * written before the first appears, so that no part of a series is left where the disk is full. False with ANG_OUTPUT
+ * (a folder that cannot be written, or that holds IM files which would be mixed into the series), ANG_GEOMETRY (rows
+ * and columns not at right angles or no length, which the image plane module cannot state), ANG_USAGE (a build without
+ * GDCM), ANG_LIMIT, ANG_INTERRUPTED. Thread safe for different folders. */
 bool ang_dicom_write(const char *folder, const ang_volume *volume, uint64_t seed, const ang_progress *progress,
                      ang_error *err);
 

@@ -253,6 +253,25 @@ static void two_at_once(void **state) {
     print_message("seen: %d times the one, %d times the other\n", times[1], times[2]);
 }
 
+static int phantom_on_a_full_disk(const char *path) {
+    if (!make_small(path, 150)) return NOT_POSSIBLE;
+    /* The first series takes two thirds of the disk, so that the second cannot be written beside it. */
+    char sums[2][256] = {"", ""};
+    for (int i = 0; i < 2; i++) {
+        int code = run(i == 0 ? "phantom -q --dims 48x48x8 -o " PLACE
+                              : "phantom -q --dims 48x48x8 --seed 2 -o " PLACE " 2>&1");
+        if (code != (i == 0 ? 0 : 7)) return 1;
+        FILE *pipe = popen("cat '" PLACE "'/* | cksum", "r");
+        if (!pipe || !fgets(sums[i], sizeof sums[i], pipe)) return 2;
+        pclose(pipe);
+    }
+    return strcmp(sums[0], sums[1]) != 0 ? 3 : hidden_files(path) ? 4 : 0;
+}
+static void a_series_is_replaced_as_a_whole(void **state) {
+    (void)state;
+    expect_in_child(0, phantom_on_a_full_disk, PLACE);
+}
+
 /* Half a slice under the name of a leftover is not read; under another name it is a reason for a warning. */
 static void leftovers_are_not_read(void **state) {
     (void)state;
@@ -273,6 +292,7 @@ int main(void) {
         cmocka_unit_test_setup(in_forbidden_folders, clean),
         cmocka_unit_test_setup(on_full_standard_output, clean),
         cmocka_unit_test_setup(killed_in_the_middle, clean),
+        cmocka_unit_test_setup(a_series_is_replaced_as_a_whole, clean),
         cmocka_unit_test_setup(two_at_once, clean),
         cmocka_unit_test_setup(leftovers_are_not_read, clean),
     };
