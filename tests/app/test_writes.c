@@ -41,6 +41,7 @@ static const writer writers[] = {
      FULL | READ_ONLY | FORBIDDEN, NULL},
     {"presets sheet " PHANTOM " -o " PLACE "/sheet.png", "sheet.png", false, 0, NULL},
     {"presets export ct-bone -o " PLACE "/bone.vp", "bone.vp", false, 0, NULL},
+    {"presets import " FOLDER "/bone.vp", "angioscope", true, 0, NULL}, /* into XDG_CONFIG_HOME, which is PLACE */
     {"check " FOLDER "/a.png " FOLDER "/b.png --threshold 255 --heat " PLACE "/heat.png", "heat.png", false, 0, NULL},
     {"selfcheck --backend none --cases 1 --json " PLACE "/checked.json", "checked.json", false, 0, NULL},
     {"phantom --dims 16x16x2 -o " PLACE, "IM0001.dcm", false, 0, NULL},
@@ -56,7 +57,7 @@ static const writer writers[] = {
 static int prepare(void **state) {
     (void)state;
     if (system("rm -rf '" FOLDER "' && mkdir -p '" PLACE "' && chmod 777 '" FOLDER "'")) return 1;
-    return run("phantom -q --dims 48x48x24 -o " PHANTOM) ||
+    return run("phantom -q --dims 48x48x24 -o " PHANTOM) || run("presets export ct-bone -q -o " FOLDER "/bone.vp") ||
            run("render " PHANTOM " -q --size 64x64 -o " FOLDER "/a.png") ||
            run("render " PHANTOM " -q --size 64x64 --view left -o " FOLDER "/b.png");
 }
