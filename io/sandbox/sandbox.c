@@ -1,7 +1,7 @@
 #include "io/sandbox/sandbox.h"
 
 #include "core/base/memory.h"
-#include "io/sandbox/process.h"
+#include "io/sandbox/worker.h"
 #include "io/text.h"
 
 #include <pthread.h>
@@ -15,7 +15,7 @@ enum { least_bytes = 64 << 20, bytes_per_pixel = 64, page = 4096 };
 
 struct ang_sandbox {
     pthread_mutex_t lock;
-    ang_decoder *idle;
+    ang_worker *idle;
     bool unconfined;
 };
 
@@ -27,32 +27,32 @@ ang_sandbox *ang_sandbox_create(ang_error *err) {
 
 void ang_sandbox_free(ang_sandbox *sandbox) {
     if (!sandbox) return;
-    for (ang_decoder *decoder = sandbox->idle, *next; decoder; decoder = next) {
-        next = decoder->next;
-        ang_decoder_stop(decoder);
+    for (ang_worker *worker = sandbox->idle, *next; worker; worker = next) {
+        next = worker->next;
+        ang_worker_stop(worker);
     }
     pthread_mutex_destroy(&sandbox->lock);
     free(sandbox);
 }
 
-static ang_decoder *take(ang_sandbox *sandbox, ang_error *err) {
+static ang_worker *take(ang_sandbox *sandbox, ang_error *err) {
     pthread_mutex_lock(&sandbox->lock);
-    ang_decoder *decoder = sandbox->idle;
-    if (decoder) sandbox->idle = decoder->next;
+    ang_worker *worker = sandbox->idle;
+    if (worker) sandbox->idle = worker->next;
     pthread_mutex_unlock(&sandbox->lock);
-    if (decoder) return decoder;
-    decoder = ang_decoder_start(ANG_GDCM_MODULE, err);
-    if (!decoder || decoder->hello.confined) return decoder;
+    if (worker) return worker;
+    worker = ang_worker_start(ANG_GDCM_MODULE, err);
+    if (!worker || worker->hello.confined) return worker;
     pthread_mutex_lock(&sandbox->lock);
     sandbox->unconfined = true;
     pthread_mutex_unlock(&sandbox->lock);
-    return decoder;
+    return worker;
 }
 
-static void give_back(ang_sandbox *sandbox, ang_decoder *decoder) {
+static void give_back(ang_sandbox *sandbox, ang_worker *worker) {
     pthread_mutex_lock(&sandbox->lock);
-    decoder->next = sandbox->idle;
-    sandbox->idle = decoder;
+    worker->next = sandbox->idle;
+    sandbox->idle = worker;
     pthread_mutex_unlock(&sandbox->lock);
 }
 
@@ -63,46 +63,46 @@ static const char *codec_name(const ang_codec_frame *frame) {
     return kind < 80 ? "JPEG" : kind < 90 ? "JPEG-LS" : "JPEG 2000";
 }
 
-static bool say_why(ang_decoder_end end, const ang_codec_frame *frame, ang_error *err) {
-    const char *what = end == ANG_DECODER_SLOW        ? "keeps the decoder busy for too long"
-                       : end == ANG_DECODER_FORBIDDEN ? "made the decoder try what it must not do"
-                                                      : "made the decoder crash";
+static bool say_why(ang_worker_end end, const ang_codec_frame *frame, ang_error *err) {
+    const char *what = end == ANG_WORKER_SLOW        ? "keeps the decoder busy for too long"
+                       : end == ANG_WORKER_FORBIDDEN ? "made the decoder try what it must not do"
+                                                     : "made the decoder crash";
     return ang_fail(err, ANG_INPUT, "its %s stream %s", codec_name(frame), what);
 }
 
 bool ang_sandbox_decode(ang_sandbox *sandbox, const uint8_t *stream, size_t length, const ang_codec_frame *frame,
                         void *pixels, size_t size, ang_error *err) {
-    ang_decoder *decoder = take(sandbox, err);
-    if (!decoder) return false;
+    ang_worker *worker = take(sandbox, err);
+    if (!worker) return false;
     size_t offset = (length + page - 1) / page * page, count = (size_t)frame->columns * (size_t)frame->rows;
-    ang_decoder_request request = {.length = length,
-                                   .offset = offset,
-                                   .size = size,
-                                   .columns = frame->columns,
-                                   .rows = frame->rows,
-                                   .bits = frame->bits,
-                                   .is_signed = frame->is_signed};
+    ang_worker_request request = {.length = length,
+                                  .offset = offset,
+                                  .size = size,
+                                  .columns = frame->columns,
+                                  .rows = frame->rows,
+                                  .bits = frame->bits,
+                                  .is_signed = frame->is_signed};
     snprintf(request.transfer_syntax, sizeof request.transfer_syntax, "%s", frame->transfer_syntax);
-    if (!ang_decoder_reserve(decoder, offset + size, err)) {
-        ang_decoder_stop(decoder);
+    if (!ang_worker_reserve(worker, offset + size, err)) {
+        ang_worker_stop(worker);
         return false;
     }
-    request.total = decoder->size;
-    memcpy(decoder->shared, stream, length);
-    ang_decoder_reply reply;
-    ang_decoder_end end = ang_decoder_ask(decoder, &request, least_bytes + bytes_per_pixel * count,
-                                          least_seconds + (double)count / pixels_per_second, &reply);
-    if (end != ANG_DECODER_REPLIED) {
-        ang_decoder_stop(decoder);
+    request.total = worker->size;
+    memcpy(worker->shared, stream, length);
+    ang_worker_reply reply;
+    ang_worker_end end = ang_worker_ask(worker, &request, least_bytes + bytes_per_pixel * count,
+                                        least_seconds + (double)count / pixels_per_second, &reply);
+    if (end != ANG_WORKER_REPLIED) {
+        ang_worker_stop(worker);
         return say_why(end, frame, err);
     }
     if (reply.decoded) {
-        memcpy(pixels, decoder->shared + offset, size);
+        memcpy(pixels, worker->shared + offset, size);
     } else {
         ang_text_clean(reply.message);
         ang_fail(err, ANG_INPUT, "%s", reply.message); /* whatever the code: one frame is no reason to stop */
     }
-    give_back(sandbox, decoder);
+    give_back(sandbox, worker);
     return reply.decoded;
 }
 

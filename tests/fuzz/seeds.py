@@ -3,12 +3,15 @@
 
 All is made here but for the presets, which are the program's, and inputs that once failed (tests/fuzz/regressions).
 """
+import bz2
 import gzip
+import io
 import json
 import pathlib
 import shutil
 import struct
 import sys
+import zipfile
 import zlib
 
 source, corpus = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
@@ -197,7 +200,61 @@ volumes = {
 for name, data in volumes.items():
     save("fuzz_nifti", name, data)
 
+# NRRD and MetaImage.
+voxels = bytes(i * 37 % 251 for i in range(2 * 3 * 4 * 2))
+geometry = "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,0.5,0) (0,0.1,2)\nspace origin: (1,2,3)\n"
+raw = "dimension: 3\ntype: short\nsizes: 2 3 4\nendian: little\n"
+nrrds = {
+    "raw": ("NRRD0004\n# made up\n" + raw + geometry + "encoding: raw\n\n").encode() + voxels,
+    "gzip": ("NRRD0005\n" + raw + geometry + "encoding: gzip\n\n").encode() + gzip.compress(voxels, mtime=0),
+    "bzip2": ("NRRD0005\n" + raw + "encoding: bzip2\n\n").encode() + bz2.compress(voxels),
+    "text": ("NRRD0001\ndimension: 3\ntype: float\nsizes: 2 2 2\nspacings: 1 1 2\nencoding: ascii\n\n1 2 3.5 -4e1 nan inf 7 8\n").encode(),
+    "hex": ("NRRD0003\ndimension: 3\ntype: uchar\nsizes: 2 2 2\nencoding: hex\n\n00 01 02 03 fF A0 b1 07\n").encode(),
+    "detached": ("NRRD0004\n" + raw + "encoding: raw\nbyte skip: -1\ndata file: a.raw\n").encode(),
+    "list": ("NRRD0004\n" + raw + "encoding: raw\ndata file: LIST 2\na.raw\na.raw\na.raw\na.raw\n").encode(),
+    "pattern": ("NRRD0004\n" + raw + "encoding: raw\nline skip: 1\ndata file: a%03d.raw 1 4 1 2\n").encode(),
+    "phases": ("NRRD0004\ndimension: 4\ntype: uint8\nsizes: 2 2 3 2\nkinds: list domain domain domain\nspace: RAS\n"
+               "space directions: none (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\nkey:=value\n\n").encode() + voxels,
+    "old": ("NRRD0002\n" + raw + "axis mins: 0 0 0\naxis maxs: 1 1 1\ncenterings: cell cell cell\nencoding: raw\n\n").encode() + voxels,
+}
+for name, data in nrrds.items():
+    save("fuzz_nrrd", name, data)
+meta = ("ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nTransformMatrix = 1 0 0 0 1 0 0 0 -1\n"
+        "Offset = 1 2 3\nCenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\nElementSpacing = 0.5 0.5 2\nDimSize = 2 3 4\n"
+        "ElementType = MET_SHORT\n")
+packed = zlib.compress(voxels)
+metas = {
+    "raw": (meta + "ElementDataFile = LOCAL\n").encode() + voxels,
+    "packed": (meta + f"CompressedData = True\nCompressedDataSize = {len(packed)}\nElementDataFile = LOCAL\n").encode() + packed,
+    "text": (meta.replace("BinaryData = True", "BinaryData = False") + "ElementDataFile = LOCAL\n").encode() + b" ".join(b"%d" % v for v in voxels[:24]),
+    "detached": (meta + "HeaderSize = -1\nElementDataFile = a.raw\n").encode(),
+    "list": (meta + "ElementDataFile = LIST 2\na.raw\na.raw\na.raw\na.raw\n").encode(),
+    "pattern": (meta + "ElementDataFile = a%02d.raw 1 4 1\n").encode(),
+    "float": (meta.replace("MET_SHORT", "MET_FLOAT").replace("2 3 4", "2 2 3") + "ElementDataFile = LOCAL\n").encode() + voxels,
+    "channels": (meta + "ElementNumberOfChannels = 2\nElementDataFile = LOCAL\n").encode() + voxels * 2,
+}
+for name, data in metas.items():
+    save("fuzz_metaimage", name, data)
+
+
+# Archives.
+def archive(members, packing):
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", packing) as packed:
+        for name, data in members:
+            packed.writestr(zipfile.ZipInfo(name), data, packing)
+    return out.getvalue()
+
+
+save("fuzz_zip", "stored", archive([("a/b.dcm", dicom()), ("c", b"")], zipfile.ZIP_STORED))
+save("fuzz_zip", "deflated", archive([("a/b.dcm", dicom()), ("a/", b""), ("d", b"x" * 1000)], zipfile.ZIP_DEFLATED))
+save("fuzz_zip", "bzip2", archive([("a", b"y" * 500)], zipfile.ZIP_BZIP2))
+save("fuzz_zip", "away", archive([("../a", b"1"), ("/b", b"2"), ("c\\..\\..\\d", b"3"), ("e", b"4"), ("e", b"5")], zipfile.ZIP_STORED))
+
 # JSON.
+save("fuzz_stack_sidecar", "whole", json.dumps({"spacing": [1, 1, 2.5], "origin": [1, 2, 3], "directions": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                                                "slope": 2, "intercept": -1024, "signed": True}))
+save("fuzz_stack_sidecar", "short", json.dumps({"spacing": [1, 1, 2.5], "slope": 1}))
 save("fuzz_raw_sidecar", "lists", json.dumps({"dims": [16, 16, 8], "type": "u16", "spacing": [1, 1, 2.5]}))
 save("fuzz_raw_sidecar", "texts", json.dumps({"dims": "8x8x16", "type": "f32", "spacing": "1,2,3"}))
 save("fuzz_raw_sidecar", "bytes", json.dumps({"dims": [16, 16, 16], "type": "i8"}))

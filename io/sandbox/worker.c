@@ -1,4 +1,4 @@
-#include "io/sandbox/process.h"
+#include "io/sandbox/worker.h"
 
 #include "core/base/clock.h"
 #include "core/base/memory.h"
@@ -25,10 +25,10 @@ extern char **environ;
 /* How much longer than its processor time a frame may take by the clock, on a busy machine; and a start. */
 static const double wall_factor = 5, start_ms = 30000;
 
-/* Out of the way of the numbers that the decoder inherits. */
+/* Out of the way of the numbers that the worker inherits. */
 static int move_up(int fd) {
     if (fd < 0) return fd;
-    int moved = fcntl(fd, F_DUPFD_CLOEXEC, ANG_DECODER_MEMORY + 1);
+    int moved = fcntl(fd, F_DUPFD_CLOEXEC, ANG_WORKER_MEMORY + 1);
     close(fd);
     return moved;
 }
@@ -58,9 +58,9 @@ static int spawn(const char *path, const char *module, int socket, int memory, p
 #ifndef __SANITIZE_ADDRESS__ /* whose reports must be seen */
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
 #endif
-    posix_spawn_file_actions_adddup2(&actions, socket, ANG_DECODER_SOCKET);
-    posix_spawn_file_actions_adddup2(&actions, memory, ANG_DECODER_MEMORY);
-    char name[] = ANG_DECODER, *argument = strdup(module);
+    posix_spawn_file_actions_adddup2(&actions, socket, ANG_WORKER_SOCKET);
+    posix_spawn_file_actions_adddup2(&actions, memory, ANG_WORKER_MEMORY);
+    char name[] = ANG_WORKER_PROGRAM, *argument = strdup(module);
     char *arguments[] = {name, argument, NULL};
     int failed = argument ? posix_spawn(pid, path, &actions, &attributes, arguments, environ) : ENOMEM;
     free(argument);
@@ -83,91 +83,92 @@ static bool receive(int socket, void *out, size_t size, double until_ms) {
     }
 }
 
-ang_decoder *ang_decoder_start(const char *module, ang_error *err) {
+ang_worker *ang_worker_start(const char *module, ang_error *err) {
     char path[PATH_MAX];
-    ang_decoder *decoder = ang_alloc(1, sizeof *decoder, "a decoder", err);
-    if (!decoder) return NULL;
-    *decoder = (ang_decoder){.socket = -1, .memory = -1};
+    ang_worker *worker = ang_alloc(1, sizeof *worker, "a decoder", err);
+    if (!worker) return NULL;
+    *worker = (ang_worker){.socket = -1, .memory = -1};
     int sockets[2] = {-1, -1}, failed = 0;
-    if (!ang_module_path(ANG_DECODER, path, sizeof path)) failed = ENOENT;
+    if (!ang_module_path(ANG_WORKER_PROGRAM, path, sizeof path)) failed = ENOENT;
     if (!failed && socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets) != 0) failed = errno;
-    decoder->socket = move_up(sockets[0]);
+    worker->socket = move_up(sockets[0]);
     int theirs = move_up(sockets[1]);
-    decoder->memory = move_up(memfd_create(ANG_DECODER, MFD_CLOEXEC | MFD_ALLOW_SEALING));
-    /* Else the decoder could take pages away that the program is reading. */
-    if (!failed && fcntl(decoder->memory, F_ADD_SEALS, F_SEAL_SHRINK) != 0) failed = errno;
+    worker->memory = move_up(memfd_create(ANG_WORKER_PROGRAM, MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    /* Else the worker could take pages away that the program is reading. */
+    if (!failed && fcntl(worker->memory, F_ADD_SEALS, F_SEAL_SHRINK) != 0) failed = errno;
     if (!failed && theirs < 0) failed = EMFILE;
-    if (!failed) failed = spawn(path, module, theirs, decoder->memory, &decoder->pid);
+    if (!failed) failed = spawn(path, module, theirs, worker->memory, &worker->pid);
     if (theirs >= 0) close(theirs);
-    if (!failed && (!receive(decoder->socket, &decoder->hello, sizeof decoder->hello, ang_now_ms() + start_ms) ||
-                    decoder->hello.version != ANG_DECODER_VERSION))
+    if (!failed && (!receive(worker->socket, &worker->hello, sizeof worker->hello, ang_now_ms() + start_ms) ||
+                    worker->hello.version != ANG_WORKER_VERSION))
         failed = EPROTO;
-    if (!failed) return decoder;
-    ang_decoder_stop(decoder);
+    if (!failed) return worker;
+    ang_worker_stop(worker);
     ang_fail(err, ANG_INPUT,
-             "the program that decodes it, " ANG_DECODER ", cannot be started (%s); install it again or decode in this "
+             "the program that decodes it, " ANG_WORKER_PROGRAM
+             ", cannot be started (%s); install it again or decode in this "
              "process with --no-sandbox",
              strerror(failed));
     return NULL;
 }
 
-bool ang_decoder_reserve(ang_decoder *decoder, size_t size, ang_error *err) {
-    if (size <= decoder->size) return true;
-    if (decoder->size) munmap(decoder->shared, decoder->size);
-    decoder->size = 0;
-    void *at = ftruncate(decoder->memory, (off_t)size) == 0
-                   ? mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, decoder->memory, 0)
+bool ang_worker_reserve(ang_worker *worker, size_t size, ang_error *err) {
+    if (size <= worker->size) return true;
+    if (worker->size) munmap(worker->shared, worker->size);
+    worker->size = 0;
+    void *at = ftruncate(worker->memory, (off_t)size) == 0
+                   ? mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, worker->memory, 0)
                    : MAP_FAILED;
     if (at == MAP_FAILED) return ang_fail(err, ANG_LIMIT, "no memory for compressed pixels");
-    decoder->shared = at;
-    decoder->size = size;
+    worker->shared = at;
+    worker->size = size;
     return true;
 }
 
 /* Limits of the other process, raised as its work goes on: hard ones could not be. */
-static void limit(const ang_decoder *decoder, size_t bytes, double seconds) {
+static void limit(const ang_worker *worker, size_t bytes, double seconds) {
 #ifdef __SANITIZE_ADDRESS__
     (void)bytes; /* AddressSanitizer's shadow takes terabytes of address space */
 #else
-    struct rlimit space = {decoder->hello.memory + decoder->size + bytes, RLIM_INFINITY};
-    if (decoder->hello.memory) prlimit(decoder->pid, RLIMIT_AS, &space, NULL);
+    struct rlimit space = {worker->hello.memory + worker->size + bytes, RLIM_INFINITY};
+    if (worker->hello.memory) prlimit(worker->pid, RLIMIT_AS, &space, NULL);
 #endif
     clockid_t clock;
     struct timespec used;
-    if (clock_getcpuclockid(decoder->pid, &clock) != 0 || clock_gettime(clock, &used) != 0) return;
+    if (clock_getcpuclockid(worker->pid, &clock) != 0 || clock_gettime(clock, &used) != 0) return;
     struct rlimit time = {(rlim_t)ceil((double)used.tv_sec + 1e-9 * (double)used.tv_nsec + seconds), RLIM_INFINITY};
-    prlimit(decoder->pid, RLIMIT_CPU, &time, NULL);
+    prlimit(worker->pid, RLIMIT_CPU, &time, NULL);
 }
 
-ang_decoder_end ang_decoder_ask(ang_decoder *decoder, const ang_decoder_request *request, size_t bytes, double seconds,
-                                ang_decoder_reply *reply) {
+ang_worker_end ang_worker_ask(ang_worker *worker, const ang_worker_request *request, size_t bytes, double seconds,
+                              ang_worker_reply *reply) {
     double until = ang_now_ms() + 1000 * wall_factor * (seconds + 1);
-    limit(decoder, bytes, seconds);
-    if (send(decoder->socket, request, sizeof *request, MSG_NOSIGNAL) == (ssize_t)sizeof *request &&
-        receive(decoder->socket, reply, sizeof *reply, until)) {
+    limit(worker, bytes, seconds);
+    if (send(worker->socket, request, sizeof *request, MSG_NOSIGNAL) == (ssize_t)sizeof *request &&
+        receive(worker->socket, reply, sizeof *reply, until)) {
         reply->message[sizeof reply->message - 1] = '\0';
-        return ANG_DECODER_REPLIED;
+        return ANG_WORKER_REPLIED;
     }
     bool late = ang_now_ms() >= until;
     int status = 0;
     /* What crashed keeps the signal that it died of. */
-    kill(decoder->pid, SIGKILL);
-    close(decoder->socket);
-    decoder->socket = -1;
-    while (waitpid(decoder->pid, &status, 0) < 0 && errno == EINTR) continue;
-    decoder->pid = 0;
+    kill(worker->pid, SIGKILL);
+    close(worker->socket);
+    worker->socket = -1;
+    while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR) continue;
+    worker->pid = 0;
     int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (late || number == SIGXCPU) return ANG_DECODER_SLOW;
-    return number == SIGSYS ? ANG_DECODER_FORBIDDEN : ANG_DECODER_CRASHED;
+    if (late || number == SIGXCPU) return ANG_WORKER_SLOW;
+    return number == SIGSYS ? ANG_WORKER_FORBIDDEN : ANG_WORKER_CRASHED;
 }
 
-void ang_decoder_stop(ang_decoder *decoder) {
-    if (decoder->socket >= 0) close(decoder->socket);
-    if (decoder->memory >= 0) close(decoder->memory);
-    if (decoder->size) munmap(decoder->shared, decoder->size);
-    if (decoder->pid > 0) {
-        kill(decoder->pid, SIGKILL);
-        while (waitpid(decoder->pid, NULL, 0) < 0 && errno == EINTR) continue;
+void ang_worker_stop(ang_worker *worker) {
+    if (worker->socket >= 0) close(worker->socket);
+    if (worker->memory >= 0) close(worker->memory);
+    if (worker->size) munmap(worker->shared, worker->size);
+    if (worker->pid > 0) {
+        kill(worker->pid, SIGKILL);
+        while (waitpid(worker->pid, NULL, 0) < 0 && errno == EINTR) continue;
     }
-    free(decoder);
+    free(worker);
 }
