@@ -120,6 +120,7 @@ static void copy_window(const ang_viewer_state *shown, ang_state *state) {
                               turn->y.z, turn->z.x, turn->z.y, turn->z.z};
     memcpy(state->planes_turn, turned, sizeof turned);
     state->voxels_shown = shown->voxels_shown;
+    state->turns_about_crosshair = shown->turns_about_crosshair;
     state->crosshair = document->crosshair;
     state->crop_lower = document->crop_lower;
     state->crop_upper = document->crop_upper;
@@ -263,6 +264,7 @@ bool ang_view_session_of(const ang_state *state, const char *file, const ang_stu
     }
     memcpy(session->tool, state->tool, sizeof session->tool);
     session->voxels_shown = state->voxels_shown;
+    session->turns_about_crosshair = state->turns_about_crosshair;
     return take_picture(state, file, study, document, err) && take_turn(state, file, &document->turn, err) &&
            take_marks(state, &document->measures, err) && take_maximised(state, file, session, err) &&
            take_method(state, file, &document->method, err);

@@ -134,6 +134,7 @@ static void add_window(cJSON *root, const ang_state *state) {
     add_text(root, "tool", state->tool);
     add_text(root, "method", state->method);
     cJSON_AddBoolToObject(root, "voxels_shown", state->voxels_shown);
+    cJSON_AddBoolToObject(root, "turns_about_crosshair", state->turns_about_crosshair);
     cJSON_AddBoolToObject(root, "corner_text", state->corner_text);
     cJSON_AddBoolToObject(root, "crosshair_lines", state->crosshair_lines);
 }

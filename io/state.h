@@ -46,11 +46,12 @@ typedef struct ang_state {
                                         voxel index; all NaN where open */
     ang_state_slice slice[ANG_STATE_SLICES];
     ang_measures measures;
-    double planes_turn[9]; /* where the slice planes' L, P and H directions have gone to: three unit vectors */
-    bool voxels_shown;     /* slices are not interpolated */
-    char maximised[16];    /* the pane that is large; "": none */
-    char tool[16];         /* of the left button */
-    char method[16];       /* as chosen: "auto" or a name */
+    double planes_turn[9];      /* where the slice planes' L, P and H directions have gone to: three unit vectors */
+    bool voxels_shown;          /* slices are not interpolated */
+    bool turns_about_crosshair; /* the hand on the 3D picture, else about the volume's centre */
+    char maximised[16];         /* the pane that is large; "": none */
+    char tool[16];              /* of the left button */
+    char method[16];            /* as chosen: "auto" or a name */
     bool corner_text, crosshair_lines; /* shown on the panes */
 } ang_state;
 

@@ -34,6 +34,7 @@ static const char *const state_fields[] = {"angioscope_state",
                                            "crop",
                                            "planes_turn",
                                            "voxels_shown",
+                                           "turns_about_crosshair",
                                            "measures",
                                            NULL};
 static const char *const input_fields[] = {"path", "name", "raw_dims", "raw_type", "raw_spacing", NULL};
@@ -239,6 +240,7 @@ static bool read_window(reader *r) {
            read_word(r, "maximised", state->maximised) && read_word(r, "tool", state->tool) &&
            read_word(r, "method", state->method) && read_flag(r, "corner_text", &state->corner_text) &&
            read_flag(r, "voxels_shown", &state->voxels_shown) &&
+           read_flag(r, "turns_about_crosshair", &state->turns_about_crosshair) &&
            read_flag(r, "crosshair_lines", &state->crosshair_lines);
 }
 

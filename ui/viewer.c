@@ -124,6 +124,7 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .crosshair_lines = viewer->crosshair_shown,
                                 .names_hidden = viewer->names_hidden,
                                 .voxels_shown = viewer->voxels_shown,
+                                .turns_about_crosshair = viewer->turns_about_crosshair,
                                 .choice = ang_volume_method_choice(viewer),
                                 .method = volume->method ? volume->method->name : NULL,
                                 .size = {volume->size[0], volume->size[1]},

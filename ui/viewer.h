@@ -69,7 +69,7 @@ typedef struct ang_viewer_state {
     } saving;          /* a preset: what the dialog holds; name NULL: it is not open */
     const char *tool;
     bool corner_text, crosshair_lines; /* are shown on the panes */
-    bool names_hidden, voxels_shown;
+    bool names_hidden, voxels_shown, turns_about_crosshair;
     const char *choice; /* of method: "auto" or a name */
     const char *method; /* that draws; NULL: none yet */
     int size[2];        /* of the 3D picture, pixels */

@@ -2,6 +2,7 @@
 
 #include "core/base/memory.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -91,6 +92,26 @@ int ang_measurement_handles(const ang_measurement *measurement, ang_vec3 handle[
     int count = region ? ANG_MEASURE_HANDLES : ang_measure_points(measurement->kind);
     for (int i = 0; i < count; i++) handle[i] = region ? corner(measurement, i) : measurement->point[i];
     return count;
+}
+
+static int ellipse(const ang_measurement *m, ang_vec3 at[ANG_MEASURE_OUTLINE]) {
+    ang_vec3 middle = ang_measurement_middle(m), half = ang_vec3_scale(ang_vec3_sub(m->point[1], m->point[0]), 0.5);
+    double a = ang_vec3_dot(half, m->right), b = ang_vec3_dot(half, m->down);
+    for (int i = 0; i < ANG_MEASURE_OUTLINE; i++) {
+        double turn = 2 * M_PI * i / (ANG_MEASURE_OUTLINE - 1);
+        at[i] = ang_vec3_along(ang_vec3_along(middle, m->right, a * cos(turn)), m->down, b * sin(turn));
+    }
+    return ANG_MEASURE_OUTLINE;
+}
+
+int ang_measurement_outline(const ang_measurement *measurement, ang_vec3 at[ANG_MEASURE_OUTLINE]) {
+    static const int around[] = {0, 1, 3, 2, 0};
+    ang_vec3 handle[ANG_MEASURE_HANDLES];
+    if (measurement->kind == ANG_MEASURE_ELLIPSE) return ellipse(measurement, at);
+    int count = ang_measurement_handles(measurement, handle);
+    bool closed = measurement->kind == ANG_MEASURE_RECTANGLE;
+    for (int i = 0; i < count + closed; i++) at[i] = handle[closed ? around[i] : i];
+    return count + closed;
 }
 
 /* The point moved along a unit direction as far as `to` is. */

@@ -47,6 +47,9 @@ bool ang_measurement_same(const ang_measurement *a, const ang_measurement *b);
 
 /* What can be dragged, LPS mm: the points, or a region's corners. Returns their number. */
 int ang_measurement_handles(const ang_measurement *measurement, ang_vec3 handle[ANG_MEASURE_HANDLES]);
+enum { ANG_MEASURE_OUTLINE = 65 };
+/* The measure as a line through places, LPS mm, closed where it is a region's; their number. */
+int ang_measurement_outline(const ang_measurement *measurement, ang_vec3 at[ANG_MEASURE_OUTLINE]);
 /* Moves a handle; of a region the opposite corner stays, and its plane. */
 void ang_measurement_drag(ang_measurement *measurement, int handle, ang_vec3 to);
 void ang_measurement_shift(ang_measurement *measurement, ang_vec3 by);

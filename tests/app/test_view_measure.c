@@ -239,14 +239,15 @@ static void regions_have_the_values_of_their_voxels(void **state) {
 }
 
 /* How many pixels have the colour of marks. */
-static int marked(const char *name) {
-    char path[256];
+static int marked(const char *name, const char *pane) {
+    char path[256], side[2][32];
     ang_image picture;
     snprintf(path, sizeof path, PICTURES "/%s", name);
     assert_true(ang_picture_read(path, &picture, NULL));
     cJSON *shown = read_state();
-    assert_int_equal(picture.width, (int)number_at(shown, "panes.axial.2"));
-    assert_int_equal(picture.height, (int)number_at(shown, "panes.axial.3"));
+    for (int i = 0; i < 2; i++) snprintf(side[i], sizeof side[i], "panes.%s.%d", pane, 2 + i);
+    assert_int_equal(picture.width, (int)number_at(shown, side[0]));
+    assert_int_equal(picture.height, (int)number_at(shown, side[1]));
     cJSON_Delete(shown);
     int count = 0;
     for (int i = 0; i < picture.width * picture.height; i++) {
@@ -264,15 +265,15 @@ static void marks_are_seen_on_their_slice(void **state) {
     to_axial_slice(37);
     hands("key w key shift+x mousemove_relative 1 1 key F12");
     expect_text("saved", "angioscope-axial-seen-0001.png");
-    int seen = marked("angioscope-axial-seen-0001.png");
+    int seen = marked("angioscope-axial-seen-0001.png", "axial");
     to_axial_slice(36);
     hands("key F12");
     expect_text("saved", "angioscope-axial-seen-0002.png");
-    int elsewhere = marked("angioscope-axial-seen-0002.png");
+    int elsewhere = marked("angioscope-axial-seen-0002.png", "axial");
     to_axial_slice(37);
     hands("key shift+m key F12");
     expect_text("saved", "angioscope-axial-seen-0003.png");
-    int hidden = marked("angioscope-axial-seen-0003.png");
+    int hidden = marked("angioscope-axial-seen-0003.png", "axial");
     print_message("%d pixels of marks on their slice, %d on the next, %d where hidden\n", seen, elsewhere, hidden);
     assert_true(seen > 400); /* the length alone is 130 mm long */
     assert_int_equal(elsewhere, 0);
@@ -430,6 +431,36 @@ static void measures_are_restored_with_the_session(void **state) {
     assert_int_equal(wait_for_end(), 0);
 }
 
+/* In the head's middle the skin hides an ellipse; one around the head is seen where the head is not before it. */
+static void regions_are_seen_in_the_volume_where_nothing_hides_them(void **state) {
+    (void)state;
+    need_window();
+    start_viewer(FOLDER "/phantom --preset ct-skin");
+    expect_text("phase", "ready");
+    to_axial_slice(24);
+    hands("key --delay 100 shift+x key --delay 100 m key --delay 100 m key --delay 100 m");
+    int count[2], x0, y0, x1, y1;
+    for (int i = 0; i < 2; i++) {
+        double reach = i == 0 ? 20 : 105;
+        char name[64];
+        to_axial_slice(24);
+        axial_place(-reach, -reach, &x0, &y0);
+        axial_place(reach, reach, &x1, &y1);
+        pull(x0, y0, x1, y1);
+        expect_number("measures.count", i + 1, 0);
+        go_to("volume");
+        hands("key F12");
+        snprintf(name, sizeof name, "angioscope-volume-seen-%04d.png", 2 + i);
+        expect_text("saved", name);
+        count[i] = marked(name, "volume");
+    }
+    print_message("%d pixels of an ellipse in the head, %d with one around it\n", count[0], count[1]);
+    assert_int_equal(count[0], 0);
+    assert_true(count[1] > 100);
+    hands("key ctrl+q");
+    assert_int_equal(wait_for_end(), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keys_measure_from_the_crosshair),
@@ -442,6 +473,7 @@ int main(void) {
         cmocka_unit_test(a_double_click_measures_nothing),
         cmocka_unit_test(the_volume_has_the_lengths_as_headless),
         cmocka_unit_test(measures_are_restored_with_the_session),
+        cmocka_unit_test(regions_are_seen_in_the_volume_where_nothing_hides_them),
     };
     return cmocka_run_group_tests(tests, open_phantom, close_display);
 }

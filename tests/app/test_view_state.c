@@ -62,7 +62,7 @@ static void change_everything(void) {
     hands("keyup shift");
     hands("key k"); /* a clip plane */
     expect_number("clip_plane.offset_mm", 0, 200);
-    hands("key o key t key shift+x key p");
+    hands("key o key t key shift+x key shift+c key p");
     expect_text("tool", "pan");
     expect_text("render.projection", "parallel");
 }

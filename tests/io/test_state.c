@@ -47,7 +47,7 @@ static ang_state everything(void) {
     state.crop_upper = (ang_vec3){0.5, 10 / 3.0, 7};
     const double turn[9] = {0.6, 0.8, 0, -0.8, 0.6, 0, 0, 0, 1};
     memcpy(state.planes_turn, turn, sizeof turn);
-    state.voxels_shown = true;
+    state.voxels_shown = state.turns_about_crosshair = true;
     for (int i = 0; i < ANG_STATE_SLICES; i++)
         state.slice[i] = (ang_state_slice){.zoom = 1 + i / 7.0, .pan_mm = {-i / 3.0, 5}};
     snprintf(state.maximised, sizeof state.maximised, "coronal");
@@ -94,7 +94,7 @@ static void all_of_it_comes_back(void **context) {
     assert_memory_equal(&read.crop_upper, &wrote.crop_upper, sizeof read.crop_upper);
     assert_memory_equal(read.slice, wrote.slice, sizeof read.slice);
     assert_memory_equal(read.planes_turn, wrote.planes_turn, sizeof read.planes_turn);
-    assert_true(read.voxels_shown);
+    assert_true(read.voxels_shown && read.turns_about_crosshair);
     assert_int_equal(read.slab, ANG_SLAB_MINIP);
     assert_true(ang_measures_same(&read.measures, &wrote.measures));
     assert_int_equal(read.measures.count, 2);

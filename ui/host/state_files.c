@@ -20,6 +20,7 @@ static void restore(ang_viewer *viewer, const ang_session *session) {
     viewer->document = *document;
     if (document->method < 0) viewer->document.method = before.method;
     viewer->voxels_shown = session->voxels_shown;
+    viewer->turns_about_crosshair = session->turns_about_crosshair;
     ang_planes_take(viewer);
     point_at(viewer, isfinite(document->crosshair.x) ? document->crosshair : before.crosshair);
     viewer->maximised = session->maximised;

@@ -1,8 +1,11 @@
 #include "ui/panes/measure_drawing.h"
 
 #include "core/scene/annotation.h"
+#include "core/scene/objects.h"
+#include "ui/panes/volume_ray.h"
 #include "ui/viewer_private.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -234,23 +237,115 @@ void ang_measures_draw_slice(ang_viewer *viewer, ang_pane pane, ang_rect rect, c
 }
 
 /* One line with its middle at a place of the pane. */
-static void write_at(const sheet *s, double x, double y, char text[][64]) {
+static ang_mark_box write_at(const sheet *s, double x, double y, char text[][64]) {
     double size[2];
     measure_lines(s, text, 1, size);
-    write_lines(s, (ang_mark_box){x - size[0] / 2, y - size[1] / 2, x + size[0] / 2, y + size[1] / 2}, text, 1);
+    ang_mark_box box = {x - size[0] / 2, y - size[1] / 2, x + size[0] / 2, y + size[1] / 2};
+    write_lines(s, box, text, 1);
+    return box;
+}
+
+/* 0: hidden by what lies before it, 1: plain. */
+static double plainness(double share) { return fmin(fmax((share - 0.1) / 0.3, 0), 1); }
+
+/* Whether something of a length can be seen. */
+static bool is_seen(const ang_sight *sight, const ang_measurement *length) {
+    enum { places = 9 };
+    ang_vec3 way = ang_vec3_sub(length->point[1], length->point[0]);
+    bool seen = false;
+    for (int i = 0; i < places && !seen; i++) {
+        double x, y, along = (double)i / (places - 1);
+        seen = plainness(ang_sight_share(sight, ang_vec3_along(length->point[0], way, along), &x, &y)) > 0;
+    }
+    return seen;
+}
+
+/* What lengths measure, of those that the picture shows and that are not hidden by what lies before them. */
+static void write_lengths(const sheet *s, const ang_sight *sight, ang_scene scene, taken_boxes *taken) {
+    const ang_volume_picture *volume = &s->viewer->volume;
+    const ang_measures *measures = &volume->document.measures;
+    ang_object_label kept[ANG_MEASURES];
+    ang_objects seen = {.label = kept};
+    size_t next = 0;
+    for (int i = 0; i < measures->count && next < volume->objects.label_count; i++) {
+        if (measures->item[i].kind != ANG_MEASURE_LENGTH) continue;
+        if (is_seen(sight, &measures->item[i])) kept[seen.label_count++] = volume->objects.label[next];
+        next++;
+    }
+    scene.objects = &seen;
+    ang_annotation annotation = ang_annotation_of_objects(&scene);
+    for (int i = 0; i < annotation.labels; i++) {
+        char text[ANG_MEASURE_LINES][64];
+        snprintf(text[0], sizeof text[0], "%s", annotation.label[i].text);
+        taken->box[taken->count++] = write_at(s, annotation.label[i].x, annotation.label[i].y, text);
+    }
+}
+
+/* Further down, until it is clear of those that are taken. */
+static ang_mark_box clear_of(const taken_boxes *taken, ang_mark_box box, double apart) {
+    for (int tries = 0; tries <= taken->count; tries++)
+        for (int i = 0; i < taken->count; i++) {
+            const ang_mark_box *other = &taken->box[i];
+            if (box.right <= other->left || box.left >= other->right || box.bottom <= other->top ||
+                box.top >= other->bottom)
+                continue;
+            double down = other->bottom + apart - box.top;
+            box.top += down;
+            box.bottom += down;
+        }
+    return box;
+}
+
+/* An angle or a region as it lies in the patient, as far as it can be seen, and what it measures below it. */
+static void draw_in_volume(const sheet *s, const ang_sight *sight, const ang_measurement *m,
+                           const ang_region_values *values, taken_boxes *taken) {
+    enum { pieces = 12 };
+    ang_vec3 place[ANG_MEASURE_OUTLINE];
+    int count = ang_measurement_outline(m, place), parts = count < ANG_MEASURE_OUTLINE ? pieces : 1;
+    double last[2], before = 0, label[2] = {0, -INFINITY};
+    for (int i = 0; i <= (count - 1) * parts; i++) {
+        int from = i / parts < count - 1 ? i / parts : count - 2;
+        ang_vec3 way = ang_vec3_sub(place[from + 1], place[from]);
+        ang_vec3 mm = ang_vec3_along(place[from], way, (double)(i - from * parts) / parts);
+        double at[2], plain = plainness(ang_sight_share(sight, mm, &at[0], &at[1])), both = fmin(plain, before);
+        if (i > 0 && both > 0) {
+            line(s, last, at, ANG_INK(0, 0, 0, 150 * both), s->thick + 2 * s->scale);
+            line(s, last, at, ANG_INK_FADED(s->ink, 255 * both), s->thick);
+        }
+        if (plain > 0.5 && at[1] > label[1]) memcpy(label, at, sizeof label);
+        before = plain;
+        memcpy(last, at, sizeof last);
+    }
+    if (isinf(label[1])) return;
+    char text[ANG_MEASURE_LINES][64];
+    double size[2];
+    int lines = ang_measurement_lines(m, values, s->viewer->study.hounsfield ? "HU" : "", text);
+    measure_lines(s, text, lines, size);
+    double top = label[1] + label_gap * s->scale;
+    ang_mark_box box = {label[0] - size[0] / 2, top, label[0] + size[0] / 2, top + size[1]};
+    box = kept_in_pane(s, clear_of(taken, box, 3 * s->scale));
+    write_lines(s, box, text, lines);
+    taken->box[taken->count++] = box;
+}
+
+static void draw_finished(ang_viewer *viewer, const sheet *s, const ang_scene *scene) {
+    const ang_measures *measures = &viewer->document.measures;
+    const ang_region_values *values = ang_measuring_values(viewer);
+    ang_sight sight;
+    if (measures->count == 0 || !ang_sight_make(viewer, scene->width, scene->height, &sight)) return;
+    taken_boxes taken = {.count = 0};
+    write_lengths(s, &sight, *scene, &taken);
+    for (int i = 0; i < measures->count && !measures->hidden; i++)
+        if (measures->item[i].kind != ANG_MEASURE_LENGTH)
+            draw_in_volume(s, &sight, &measures->item[i], &values[i], &taken);
 }
 
 void ang_measures_draw_volume(ang_viewer *viewer, ang_rect rect, ang_scene scene) {
     const ang_measuring *measuring = &viewer->measuring;
     sheet s = sheet_of(viewer, rect, NULL);
     char text[ANG_MEASURE_LINES][64];
-    scene.objects = &viewer->volume.objects;
-    ang_annotation annotation = ang_annotation_of_objects(&scene);
     ang_gui_clip(viewer->gui, rect);
-    for (int i = 0; i < annotation.labels; i++) {
-        snprintf(text[0], sizeof text[0], "%s", annotation.label[i].text);
-        write_at(&s, annotation.label[i].x, annotation.label[i].y, text);
-    }
+    draw_finished(viewer, &s, &scene);
     double a[2], b[2], depth;
     bool making = measuring->placed > 0 && measuring->pane == ANG_PANE_VOLUME;
     if (making && ang_annotation_place(&scene, measuring->pending.point[0], &a[0], &a[1], &depth) &&

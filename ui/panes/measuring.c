@@ -1,5 +1,6 @@
 #include "ui/panes/measuring.h"
 
+#include "ui/panes/volume_ray.h"
 #include "ui/study.h"
 #include "ui/viewer_private.h"
 

@@ -6,6 +6,7 @@
 #include "ui/panes/orientation.h"
 #include "ui/panes/overlay.h"
 #include "ui/panes/playing.h"
+#include "ui/panes/volume_ray.h"
 #include "ui/study.h"
 #include "ui/viewer_private.h"
 

@@ -64,8 +64,6 @@ int ang_volume_level(const ang_viewer *viewer);
 /* Seconds until the fine picture should be begun, or gone on with; infinite where there is nothing to refine. */
 double ang_volume_refine_in(const ang_viewer *viewer);
 void ang_volume_picture_clear(ang_viewer *viewer);
-/* The first place along a pixel's ray that shows; false where there is none. */
-bool ang_volume_pick(ang_viewer *viewer, double x, double y, ang_vec3 *mm);
 const char *ang_volume_method_choice(const ang_viewer *viewer); /* "auto" or a name */
 
 #endif

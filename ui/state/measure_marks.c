@@ -37,25 +37,11 @@ static void locate(const ang_slice_frame *frame, ang_vec3 mm, double at[2]) {
     ang_slice_locate(frame, mm, &at[0], &at[1]);
 }
 
-static int ellipse(const ang_measurement *m, const ang_slice_frame *frame, double at[ANG_MARK_POINTS][2]) {
-    ang_vec3 middle = ang_measurement_middle(m), half = ang_vec3_scale(ang_vec3_sub(m->point[1], m->point[0]), 0.5);
-    double a = ang_vec3_dot(half, m->right), b = ang_vec3_dot(half, m->down);
-    for (int i = 0; i < ANG_MARK_POINTS; i++) {
-        double turn = 2 * M_PI * i / (ANG_MARK_POINTS - 1);
-        ang_vec3 mm = ang_vec3_along(middle, m->right, a * cos(turn));
-        locate(frame, ang_vec3_along(mm, m->down, b * sin(turn)), at[i]);
-    }
-    return ANG_MARK_POINTS;
-}
-
 int ang_mark_outline(const ang_measurement *measurement, const ang_slice_frame *frame, double at[ANG_MARK_POINTS][2]) {
-    static const int around[] = {0, 1, 3, 2, 0};
-    ang_vec3 handle[ANG_MEASURE_HANDLES];
-    if (measurement->kind == ANG_MEASURE_ELLIPSE) return ellipse(measurement, frame, at);
-    int count = ang_measurement_handles(measurement, handle);
-    bool closed = measurement->kind == ANG_MEASURE_RECTANGLE;
-    for (int i = 0; i < count + closed; i++) locate(frame, handle[closed ? around[i] : i], at[i]);
-    return count + closed;
+    ang_vec3 places[ANG_MEASURE_OUTLINE];
+    int count = ang_measurement_outline(measurement, places);
+    for (int i = 0; i < count; i++) locate(frame, places[i], at[i]);
+    return count;
 }
 
 int ang_mark_hit(const ang_measurement *measurement, const ang_slice_frame *frame, double x, double y, double reach) {

@@ -17,7 +17,7 @@ ang_presence ang_mark_presence(const ang_measurement *measurement, const ang_sli
 /* Where a length that crosses the plane does so. */
 void ang_mark_crossing(const ang_measurement *measurement, const ang_slice_frame *frame, double at[2]);
 
-enum { ANG_MARK_POINTS = 65 };
+enum { ANG_MARK_POINTS = ANG_MEASURE_OUTLINE };
 /* A line through its points, closed where it is a region's; the number of points. */
 int ang_mark_outline(const ang_measurement *measurement, const ang_slice_frame *frame, double at[ANG_MARK_POINTS][2]);
 

@@ -10,6 +10,7 @@ typedef struct ang_session {
     char tool[16];                     /* "": as it is */
     bool corner_text, crosshair_lines; /* shown on the panes */
     bool voxels_shown;                 /* slices are not interpolated */
+    bool turns_about_crosshair;        /* the hand on the 3D picture */
 } ang_session;
 
 #endif
