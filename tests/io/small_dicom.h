@@ -61,11 +61,10 @@ typedef struct form {
     bool no_rows, is_signed, has_padding, cut, no_position, no_orientation;
     bool damaged; /* the header is sound, the (compressed) pixels are not */
     bool no_image;
-    const char *transfer_syntax; /* of `stream` */
-    const uint8_t *stream;       /* compressed pixels; NULL: `pixels` as they are */
-    size_t stream_length;        /* even */
+    const uint8_t *stream; /* compressed pixels; NULL: `pixels` as they are */
+    size_t stream_length;  /* even */
     int padding;
-    const char *transfer_syntax; /* which it is said to have; it has explicit VR, little endian */
+    const char *transfer_syntax; /* of `stream`; without one, which it is said to have: explicit VR, little endian */
     const char *trigger_time, *patient_id, *series_uid, *padding_vr;
     int temporal_position;                  /* 0: none */
     int columns, rows, bits_stored, frames; /* 0: width, height, 16, one */
@@ -86,9 +85,9 @@ static inline void small(const char *name, const form *form) {
     memcpy(f.bytes + 128, "DICM", 4);
     char text[64];
     put_text(&f, 2, 0x10, "UI",
-             form->damaged  ? "1.2.840.10008.1.2.5"
-             : form->stream ? form->transfer_syntax
-                            : "1.2.840.10008.1.2.1");
+             form->damaged           ? "1.2.840.10008.1.2.5"
+             : form->transfer_syntax ? form->transfer_syntax
+                                     : "1.2.840.10008.1.2.1");
     if (form->character_set) put_text(&f, 8, 0x05, "CS", form->character_set);
     put_text(&f, 8, 0x08, "CS", form->image_type ? form->image_type : "ORIGINAL\\PRIMARY\\AXIAL");
     put_text(&f, 8, 0x16, "UI", form->sop_class ? form->sop_class : "1.2.840.10008.5.1.4.1.1.2");

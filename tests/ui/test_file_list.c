@@ -27,7 +27,8 @@ static void names_of_images_are_told(void **state) {
     static const char *const images[] = {
         "IM0001",  "a.dcm", "A.DCM", "x.ima", "brain.nii", "brain.nii.gz", "v.hdr", "v.raw.gz", "1.2.840.113619.2.5",
         "00000012"};
-    static const char *const others[] = {"notes.txt", "a.json", "bone.vp", "p.jpg", "x.dcm.bak", "archive.tar", "b.nii.bz2", "a."};
+    static const char *const others[] = {"notes.txt", "a.json",      "bone.vp",   "p.jpg",
+                                         "x.dcm.bak", "archive.tar", "b.nii.bz2", "a."};
     for (size_t i = 0; i < sizeof images / sizeof *images; i++) assert_true(ang_name_could_be_image(images[i]));
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) assert_false(ang_name_could_be_image(others[i]));
     assert_true(ang_name_could_be_preset("bone.vp") && ang_name_could_be_preset("a.VP.json"));
