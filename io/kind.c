@@ -27,7 +27,7 @@ static bool begins_like(const char *path, const char *const *starts, size_t coun
     return false;
 }
 
-ang_kind ang_kind_of_file(const char *path, const ang_load_options *options) {
+static ang_kind kind_of_file(const char *path, const ang_load_options *options) {
     static const char *const nrrd[] = {"NRRD000"};
     static const char *const metaimage[] = {"ObjectType", "NDims", "Comment = "};
     if (options->raw_dims) return ANG_KIND_RAW;
@@ -72,7 +72,7 @@ static void take_pictures(looking *looking, const char *folder) {
 }
 
 static void look_at_file(looking *looking, const char *folder, const char *path) {
-    ang_kind kind = ang_kind_of_file(path, looking->options);
+    ang_kind kind = kind_of_file(path, looking->options);
     if (kind == ANG_KIND_DICOM)
         looking->dicom = true;
     else if (kind == ANG_KIND_PICTURES)
@@ -132,7 +132,7 @@ bool ang_kind_find(const char *path, const ang_load_options *options, const ang_
         look_in(&looking, path, 0);
         conclude(&looking, path, found);
     } else {
-        *found = (ang_found){.kind = ang_kind_of_file(path, options), .path = strdup(path)};
+        *found = (ang_found){.kind = kind_of_file(path, options), .path = strdup(path)};
     }
     if (looking.stopped) return ang_fail(err, ANG_INTERRUPTED, "interrupted while looking for files");
     return found->path || ang_fail(err, ANG_LIMIT, "no memory for a name");

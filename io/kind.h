@@ -21,12 +21,10 @@ typedef struct ang_found {
     size_t others; /* further volumes in the folder, which are not read */
 } ang_found;
 
-/* The format of a file, by its first bytes; raw where the options or a sidecar say so. */
-ang_kind ang_kind_of_file(const char *path, const ang_load_options *options);
-/* The same for a folder too: DICOM where any file at or below it is, else the first file of another format in the order
- * of names, else the first folder of pictures. Folders of which nothing is known count as DICOM, whose reader says what
- * is in them. False with ANG_INPUT where there is no such path or it is neither file nor folder, ANG_LIMIT,
- * ANG_INTERRUPTED. */
+/* The format of a file by its first bytes, raw where the options or a sidecar say so. A folder is DICOM where any file
+ * at or below it is, else what the first file of another format is, in the order of names, else pictures where a folder
+ * holds some. Folders of which nothing is known count as DICOM, whose reader says what is in them. False with ANG_INPUT
+ * where there is no such path or it is neither file nor folder, ANG_LIMIT, ANG_INTERRUPTED. */
 bool ang_kind_find(const char *path, const ang_load_options *options, const ang_progress *progress, ang_found *found,
                    ang_error *err);
 void ang_found_clear(ang_found *found);

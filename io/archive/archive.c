@@ -10,7 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-bool ang_archive_probe(const char *path) {
+static bool is_archive(const char *path) {
     struct stat status;
     char start[4] = "";
     if (stat(path, &status) != 0 || !S_ISREG(status.st_mode)) return false;
@@ -62,7 +62,7 @@ bool ang_unpack(const char *const *paths, size_t count, ang_unpacked *unpacked, 
     unpacked->count = count;
     for (size_t i = 0; i < count; i++) unpacked->path[i] = paths[i];
     for (size_t i = 0; i < count; i++)
-        if (ang_archive_probe(paths[i]) && !unpack_one(unpacked, i, warnings, progress, err)) return false;
+        if (is_archive(paths[i]) && !unpack_one(unpacked, i, warnings, progress, err)) return false;
     return true;
 }
 

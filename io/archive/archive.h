@@ -16,12 +16,9 @@ typedef struct ang_unpacked {
     ang_scratch scratch;
 } ang_unpacked;
 
-/* Whether the file begins like a zip archive. */
-bool ang_archive_probe(const char *path);
-
-/* Unpacks what archives there are among `paths`; files in them that are damaged cost a line in `warnings`. False with
- * ANG_INPUT (damaged, encrypted, larger than an archive of its size should be), ANG_OUTPUT and ANG_LIMIT (no room for
- * the files), ANG_INTERRUPTED. To be cleared in any case. */
+/* Unpacks those of `paths` that begin like zip archives; files in them that are damaged cost a line in `warnings`.
+ * False with ANG_INPUT (damaged, encrypted, larger than an archive of its size should be), ANG_OUTPUT and ANG_LIMIT (no
+ * room for the files), ANG_INTERRUPTED. To be cleared in any case. */
 bool ang_unpack(const char *const *paths, size_t count, ang_unpacked *unpacked, ang_notes *warnings,
                 const ang_progress *progress, ang_error *err);
 /* Takes the folder's place out of an error's message: who reads it knows the archive alone. */

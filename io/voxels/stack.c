@@ -88,15 +88,6 @@ static bool find_pictures(const char *path, pictures *found, ang_error *err) {
     return found->count > 0 || ang_fail(err, ANG_INPUT, "%s: holds no picture", ang_base_name(path));
 }
 
-bool ang_stack_probe_folder(const char *path) {
-    DIR *directory = opendir(path);
-    bool found = false;
-    if (!directory) return false;
-    for (struct dirent *entry; !found && (entry = readdir(directory));) found = is_picture_name(entry->d_name);
-    closedir(directory);
-    return found;
-}
-
 static bool is_folder(const char *path) {
     struct stat status;
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);

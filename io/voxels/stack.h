@@ -6,8 +6,6 @@
 
 /* Whether the file begins like PNG or TIFF. */
 bool ang_stack_probe(const char *path);
-/* Whether the folder itself holds such files, by their names. */
-bool ang_stack_probe_folder(const char *path);
 /* The geometry's file: stack.json in a folder, NAME.json beside a file. NULL where there is none. To be freed. */
 char *ang_stack_sidecar(const char *path);
 /* As ang_load, for such a folder or file. */

@@ -160,8 +160,8 @@ bool ang_volume_header_list(const ang_volume_header *header, const char *path, a
            name_phases(header, report->series, err);
 }
 
-ang_volume *ang_volume_header_load(ang_volume_header *header, const char *path, const ang_load_options *options,
-                                   ang_load_report *report, const ang_progress *progress, ang_error *err) {
+static ang_volume *load_voxels(const ang_volume_header *header, const char *path, const ang_load_options *options,
+                               ang_load_report *report, const ang_progress *progress, ang_error *err) {
     const char *label = ang_base_name(path);
     snprintf(report->format, sizeof report->format, "%s", header->format);
     ang_notes_append(&report->assumptions, &header->assumptions);
@@ -200,7 +200,7 @@ static ang_volume *load(const char *path, ang_header_parser *parse, const char *
     snprintf(report->format, sizeof report->format, "%s", format);
     ang_volume *volume = NULL;
     if (ang_volume_header_read(path, parse, &header, err))
-        volume = ang_volume_header_load(&header, path, options, report, progress, err);
+        volume = load_voxels(&header, path, options, report, progress, err);
     ang_volume_header_clear(&header);
     return volume;
 }

@@ -49,9 +49,6 @@ bool ang_metaimage_parse(const char *label, const uint8_t *bytes, size_t size, a
 typedef bool ang_header_parser(const char *label, const uint8_t *bytes, size_t size, ang_volume_header *header,
                                ang_error *err);
 bool ang_volume_header_read(const char *path, ang_header_parser *parse, ang_volume_header *header, ang_error *err);
-/* The volume of a header that was read from `path`; as ang_load. Takes the header's notes. */
-ang_volume *ang_volume_header_load(ang_volume_header *header, const char *path, const ang_load_options *options,
-                                   ang_load_report *report, const ang_progress *progress, ang_error *err);
 /* The report's list for it, without a volume being read. */
 bool ang_volume_header_list(const ang_volume_header *header, const char *path, ang_load_report *report, ang_error *err);
 
