@@ -90,7 +90,7 @@ bool ang_dicom_padding(const ang_dicom_slice *slice, uint16_t *first, uint16_t *
 
 uint16_t ang_dicom_remap(uint16_t value, ang_dicom_map from, ang_dicom_map to) {
     double hu = from.slope * value + from.intercept, stored = nearbyint((hu - to.intercept) / to.slope);
-    return stored <= 0 ? 0 : stored >= 65535 ? 65535 : (uint16_t)stored;
+    return !(stored > 0) ? 0 : stored >= 65535 ? 65535 : (uint16_t)stored;
 }
 
 /* The largest error in HU of values first[i] to last[i] under maps[i] when they are taken over to `to`. */
