@@ -62,7 +62,7 @@ def place(ds, frame):
     position = group_value(ds, frame, "PlanePositionSequence", "ImagePositionPatient")
     axes = group_value(ds, frame, "PlaneOrientationSequence", "ImageOrientationPatient") or [1, 0, 0, 0, 1, 0]
     if position is None:
-        return 0.0
+        raise ValueError("nothing says where the frame lies")
     normal = numpy.cross([float(v) for v in axes[:3]], [float(v) for v in axes[3:]])
     return float(numpy.dot(normal, [float(v) for v in position]))
 
@@ -95,7 +95,7 @@ def theirs(path, scratch):
             if ds is None or ds.SamplesPerPixel != 1:
                 return None
             values = stored(ds, ds.pixel_array).reshape(-1, ds.Rows, ds.Columns)
-            order = sorted(range(len(values)), key=lambda frame: place(ds, frame))
+            order = sorted(range(len(values)), key=lambda frame: place(ds, frame)) if len(values) > 1 else [0]
             return ds, b"".join(values[frame].tobytes() for frame in order)
     except Exception:  # pydicom raises whatever comes
         return None
