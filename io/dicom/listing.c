@@ -154,7 +154,7 @@ bool ang_dicom_list(const char *const *paths, size_t count, const ang_load_optio
     snprintf(report->format, sizeof report->format, "DICOM");
     ang_dicom_folder *folder = &listing->folder;
     if (!ang_dicom_read_folder(paths, count, options->threads, folder, &report->warnings, progress, err)) return false;
-    if (!options->no_sandbox) listing->sandbox = ang_sandbox_create(err);
+    if (!options->no_sandbox) listing->sandbox = ang_sandbox_create(ANG_GDCM_MODULE, err);
     bool ok = options->no_sandbox || listing->sandbox;
     ok = ok && (folder->slice_count > 0 || fail_empty(folder, paths[0], err));
     if (ok && folder->indexed > 0)

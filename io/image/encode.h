@@ -69,9 +69,12 @@ typedef struct ang_oiio_functions {
     bool (*text)(float *mask, int width, int height, int x, int y, const char *text, int size, const char *font,
                  int align);
     bool (*text_size)(const char *text, int size, const char *font, int *text_width, int *top, int *bottom);
-    void *(*grey_open)(const char *path, ang_grey_form *form, ang_error *err);
+    /* `bytes` of a whole file, kept until it is closed, of which `path` is only the name; NULL: the file itself. */
+    void *(*grey_open)(const char *path, const void *bytes, size_t size, ang_grey_form *form, ang_error *err);
     bool (*grey_read)(void *handle, int page, void *out, ang_error *err);
     void (*grey_close)(void *handle);
+    /* No threads from now on, and everything in place for which files would be opened. */
+    void (*grey_settle)(void);
 } ang_oiio_functions;
 #define ANG_OIIO_MODULE "angioscope-oiio.so"
 #define ANG_OIIO_SYMBOL "ang_oiio_module"

@@ -164,5 +164,6 @@ static bool draw_text(float *mask, int width, int height, int x, int y, const ch
     }
 }
 
-extern "C" __attribute__((visibility("default"))) const ang_oiio_functions ang_oiio_module = {
-    encode_picture, read_picture, text_of, draw_text, measure_text, ang_grey_open, ang_grey_read, ang_grey_close};
+extern "C" __attribute__((visibility("default")))
+const ang_oiio_functions ang_oiio_module = {encode_picture, read_picture,  text_of,        draw_text,      measure_text,
+                                            ang_grey_open,  ang_grey_read, ang_grey_close, ang_grey_settle};

@@ -35,7 +35,7 @@ bool ang_oiio_text_size(const char *text, int size, const char *font, int *text_
 
 void *ang_oiio_grey_open(const char *path, ang_grey_form *form, ang_error *err) {
     const ang_oiio_functions *oiio = module(ANG_INPUT, err);
-    return oiio ? oiio->grey_open(path, form, err) : NULL;
+    return oiio ? oiio->grey_open(path, NULL, 0, form, err) : NULL;
 }
 
 bool ang_oiio_grey_read(void *handle, int page, void *out, ang_error *err) {

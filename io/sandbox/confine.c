@@ -13,17 +13,39 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* Memory, time, the end of the process: for these the arguments do not matter. */
+/* Memory, time, the end of the process, and what a thread does that a library has just started: for these the arguments
+ * do not matter. */
 static const int allowed[] = {
-    SCMP_SYS(brk),        SCMP_SYS(munmap),        SCMP_SYS(mremap),         SCMP_SYS(madvise),
-    SCMP_SYS(futex),      SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),   SCMP_SYS(sched_yield),
-    SCMP_SYS(getpid),     SCMP_SYS(gettid),        SCMP_SYS(getrandom),      SCMP_SYS(exit),
-    SCMP_SYS(exit_group), SCMP_SYS(rt_sigreturn),  SCMP_SYS(rt_sigprocmask), SCMP_SYS(restart_syscall),
+    SCMP_SYS(brk),
+    SCMP_SYS(munmap),
+    SCMP_SYS(mremap),
+    SCMP_SYS(madvise),
+    SCMP_SYS(futex),
+    SCMP_SYS(clock_gettime),
+    SCMP_SYS(gettimeofday),
+    SCMP_SYS(sched_yield),
+    SCMP_SYS(getpid),
+    SCMP_SYS(gettid),
+    SCMP_SYS(getrandom),
+    SCMP_SYS(sysinfo),
+    SCMP_SYS(rseq),
+    SCMP_SYS(set_robust_list),
+    SCMP_SYS(exit),
+    SCMP_SYS(exit_group),
+    SCMP_SYS(rt_sigreturn),
+    SCMP_SYS(rt_sigprocmask),
+    SCMP_SYS(restart_syscall),
 };
 
 /* Libraries ask what their standard output is and how many processors there are, and do without an answer. */
-static const int refused[] = {SCMP_SYS(newfstatat), SCMP_SYS(fstat),  SCMP_SYS(ioctl),
-                              SCMP_SYS(lseek),      SCMP_SYS(openat), SCMP_SYS(sched_getaffinity)};
+static const int refused[] = {SCMP_SYS(newfstatat),
+                              SCMP_SYS(fstat),
+                              SCMP_SYS(ioctl),
+                              SCMP_SYS(lseek),
+                              SCMP_SYS(openat),
+                              SCMP_SYS(sched_getaffinity),
+                              SCMP_SYS(sched_setaffinity),
+                              SCMP_SYS(prctl)};
 
 static bool add_rules(scmp_filter_ctx filter) {
     int failed = 0;
@@ -51,7 +73,9 @@ static bool add_rules(scmp_filter_ctx filter) {
 static bool filter_calls(void) {
     scmp_filter_ctx filter = seccomp_init(SCMP_ACT_KILL_PROCESS);
     if (!filter) return false;
-    bool confined = add_rules(filter) && seccomp_load(filter) == 0;
+    /* Libraries may have started threads: all are bound. */
+    bool confined =
+        seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1) == 0 && add_rules(filter) && seccomp_load(filter) == 0;
     seccomp_release(filter);
     return confined;
 }

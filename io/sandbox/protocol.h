@@ -18,18 +18,27 @@ typedef struct ang_worker_hello {
 } ang_worker_hello;
 enum { ANG_WORKER_VERSION = 1 };
 
+typedef enum ang_worker_task {
+    ANG_WORKER_FRAME, /* a frame of DICOM to pixels */
+    ANG_WORKER_OPEN,  /* a picture file to its form; it stays open until the next */
+    ANG_WORKER_PAGE,  /* a page of the file that is open to pixels */
+} ang_worker_task;
+
 typedef struct ang_worker_request {
     uint64_t total;  /* bytes of the memory */
-    uint64_t length; /* of the stream, which begins it */
+    uint64_t length; /* of the stream or the file, which begins it */
     uint64_t offset; /* of the pixels */
     uint64_t size;   /* of the pixels */
-    int32_t columns, rows, bits, is_signed;
-    char transfer_syntax[72];
+    int32_t task;
+    int32_t columns, rows, bits, is_signed; /* of a frame */
+    int32_t page;
+    char name[256]; /* transfer syntax of a frame, name of a file */
 } ang_worker_request;
 
 typedef struct ang_worker_reply {
-    uint32_t decoded;
-    char message[256];
+    uint32_t done;
+    int32_t width, height, pages, type; /* ang_grey_form of a file that was opened */
+    char message[512];                  /* where it was not done */
 } ang_worker_reply;
 
 #endif

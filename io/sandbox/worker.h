@@ -19,7 +19,7 @@ typedef struct ang_worker {
 
 /* Starts one with the codecs of a module (a plain name) and waits for its hello. NULL with ANG_INPUT, ANG_LIMIT. */
 ang_worker *ang_worker_start(const char *module, ang_error *err);
-/* At least `size` bytes of shared memory, zero where new. False with ANG_LIMIT. */
+/* At least `size` bytes of shared memory, zero where new, the same where not. False with ANG_LIMIT. */
 bool ang_worker_reserve(ang_worker *worker, size_t size, ang_error *err);
 
 /* How one request ended. */

@@ -1,6 +1,7 @@
 /* angioscope-decode: decodes for the program, which starts it with a socket and memory (protocol.h), until the socket
  * is closed. Of no use by itself. */
 #include "io/dicom/codec.h"
+#include "io/image/encode.h"
 #include "io/module.h"
 #include "io/sandbox/confine.h"
 #include "io/sandbox/protocol.h"
@@ -39,19 +40,61 @@ static uint64_t address_space(void) {
     return pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-static void decode(ang_codec_function *codec, ang_worker_request *request, ang_worker_reply *reply) {
-    ang_error err = {.code = ANG_LIMIT, .message = "no memory to decode its pixels"};
-    request->transfer_syntax[sizeof request->transfer_syntax - 1] = '\0';
-    ang_codec_frame frame = {.transfer_syntax = request->transfer_syntax,
+/* What it decodes with: one of the two. */
+typedef struct codecs {
+    ang_codec_function *frame;
+    const ang_oiio_functions *picture;
+    void *open; /* picture file */
+} codecs;
+
+static bool open_codecs(const char *module, codecs *codecs, ang_error *err) {
+    if (strcmp(module, ANG_OIIO_MODULE) == 0) {
+        codecs->picture = ang_module_symbol(module, ANG_OIIO_SYMBOL, "picture files", ANG_INPUT, err);
+        if (codecs->picture) codecs->picture->grey_settle();
+        return codecs->picture != NULL;
+    }
+    ang_codec_function *const *frame =
+        ang_module_symbol(module, ANG_GDCM_DECODE, "compressed DICOM files", ANG_INPUT, err);
+    if (frame) codecs->frame = *frame;
+    return frame != NULL;
+}
+
+static bool decode_frame(const codecs *codecs, const ang_worker_request *request, ang_error *err) {
+    ang_codec_frame frame = {.transfer_syntax = request->name,
                              .columns = request->columns,
                              .rows = request->rows,
                              .bits = request->bits,
                              .is_signed = request->is_signed != 0};
-    *reply = (ang_worker_reply){
-        .decoded = map_shared(request->total) &&
-                   codec(shared.at, request->length, &frame, shared.at + request->offset, request->size, &err)};
-    if (reply->decoded) return;
-    snprintf(reply->message, sizeof reply->message, "%.*s", (int)sizeof reply->message - 1, err.message);
+    return codecs->frame(shared.at, request->length, &frame, shared.at + request->offset, request->size, err);
+}
+
+static bool open_picture(codecs *codecs, const ang_worker_request *request, ang_worker_reply *reply, ang_error *err) {
+    ang_grey_form form = {0};
+    codecs->open = codecs->picture->grey_open(request->name, shared.at, request->length, &form, err);
+    reply->width = form.width;
+    reply->height = form.height;
+    reply->pages = form.pages;
+    reply->type = form.type;
+    return codecs->open != NULL;
+}
+
+static void serve(codecs *codecs, ang_worker_request *request, ang_worker_reply *reply) {
+    ang_error err = {.code = ANG_LIMIT, .message = "no memory to decode its pixels"};
+    *reply = (ang_worker_reply){0};
+    request->name[sizeof request->name - 1] = '\0';
+    /* What is open refers to the memory, which may be about to move. */
+    if (request->task != ANG_WORKER_PAGE && codecs->open) codecs->picture->grey_close(codecs->open);
+    if (request->task != ANG_WORKER_PAGE) codecs->open = NULL;
+    if (map_shared(request->total)) {
+        if (request->task == ANG_WORKER_FRAME && codecs->frame)
+            reply->done = decode_frame(codecs, request, &err);
+        else if (request->task == ANG_WORKER_OPEN && codecs->picture)
+            reply->done = open_picture(codecs, request, reply, &err);
+        else if (request->task == ANG_WORKER_PAGE && codecs->open)
+            reply->done = codecs->picture->grey_read(codecs->open, request->page, shared.at + request->offset, &err);
+    }
+    if (!reply->done)
+        snprintf(reply->message, sizeof reply->message, "%.*s", (int)sizeof reply->message - 1, err.message);
 }
 
 static ssize_t receive(void *out, size_t size) {
@@ -70,9 +113,10 @@ int main(int argc, char **argv) {
     }
     close_range(ANG_WORKER_MEMORY + 1, ~0U, 0);
     ang_error err = {0};
-    ang_codec_function *const *codec =
-        ang_module_symbol(argv[1], ANG_GDCM_DECODE, "compressed DICOM files", ANG_INPUT, &err);
-    if (!codec) return ANG_INPUT;
+    /* Arenas of threads would take address space that is counted to the frames. */
+    mallopt(M_ARENA_MAX, 1);
+    codecs codecs = {0};
+    if (!open_codecs(argv[1], &codecs, &err)) return ANG_INPUT;
     /* Frames are alike: the memory of one is kept for the next, so that its pages need not be cleared again. */
     mallopt(M_MMAP_THRESHOLD, 1 << 30);
     mallopt(M_TRIM_THRESHOLD, INT_MAX);
@@ -82,7 +126,7 @@ int main(int argc, char **argv) {
     ang_worker_request request;
     while (receive(&request, sizeof request) == (ssize_t)sizeof request) {
         ang_worker_reply reply;
-        decode(*codec, &request, &reply);
+        serve(&codecs, &request, &reply);
         if (write(ANG_WORKER_SOCKET, &reply, sizeof reply) != (ssize_t)sizeof reply) return ANG_OUTPUT;
     }
     return ANG_OK;

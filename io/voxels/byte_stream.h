@@ -4,6 +4,7 @@
 #define ANG_VOXELS_BYTE_STREAM_H
 
 #include "core/base/error.h"
+#include "io/sandbox/sandbox.h"
 #include "io/voxels/sample.h"
 
 #include <stddef.h>
@@ -31,10 +32,11 @@ typedef struct ang_byte_parts {
     const ang_byte_part *part; /* borrowed */
     size_t count;              /* >= 1 */
     ang_coding coding;
-    uint64_t skip;       /* bytes before the first that counts, in each part, unpacked */
-    uint64_t part_bytes; /* that count, in each part, unpacked */
-    ang_sample type;     /* of text and pictures */
-    int width, height;   /* of pages */
+    uint64_t skip;        /* bytes before the first that counts, in each part, unpacked */
+    uint64_t part_bytes;  /* that count, in each part, unpacked */
+    ang_sample type;      /* of text and pictures */
+    int width, height;    /* of pages */
+    ang_sandbox *sandbox; /* in which pictures are read; NULL: in this process */
 } ang_byte_parts;
 
 typedef struct ang_byte_stream ang_byte_stream;

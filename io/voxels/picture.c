@@ -19,7 +19,7 @@ static void *start(FILE *file, const ang_byte_parts *parts, const ang_byte_part 
     (void)file;
     const char *label = ang_base_name(part->path);
     ang_grey_form form;
-    void *pictures = ang_oiio_grey_open(part->path, &form, err);
+    void *pictures = ang_sandbox_grey_open(parts->sandbox, part->path, &form, err);
     if (!pictures) return NULL;
     bool alike = form.width == parts->width && form.height == parts->height &&
                  (form.type == parts->type || ang_sample_signed(form.type) == parts->type);
@@ -32,7 +32,7 @@ static void *start(FILE *file, const ang_byte_parts *parts, const ang_byte_part 
     size_t bytes = ang_product3((size_t)form.width, (size_t)form.height, ang_sample_size(form.type));
     paging *self = alike ? ang_alloc(1, sizeof *self + bytes, label, err) : NULL;
     if (!self) {
-        ang_oiio_grey_close(pictures);
+        ang_sandbox_grey_close(pictures);
         return NULL;
     }
     *self = (paging){.pictures = pictures, .form = form, .at = bytes, .end = bytes};
@@ -43,7 +43,7 @@ static ptrdiff_t read_pages(void *context, uint8_t *out, size_t size, ang_error 
     paging *self = context;
     if (self->at == self->end) {
         if (self->next == self->form.pages) return 0;
-        if (!ang_oiio_grey_read(self->pictures, self->next++, self->page, err)) return -1;
+        if (!ang_sandbox_grey_read(self->pictures, self->next++, self->page, err)) return -1;
         self->at = 0;
     }
     size_t length = self->end - self->at < size ? self->end - self->at : size;
@@ -54,7 +54,7 @@ static ptrdiff_t read_pages(void *context, uint8_t *out, size_t size, ang_error 
 
 static void end(void *context) {
     paging *self = context;
-    ang_oiio_grey_close(self->pictures);
+    ang_sandbox_grey_close(self->pictures);
     free(self);
 }
 

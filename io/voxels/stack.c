@@ -164,9 +164,9 @@ static void set_affine(const ang_stack_form *form, ang_volume *volume) {
 static bool look_at_first(const pictures *pictures, const ang_stack_form *form, ang_sample_source *source,
                           ang_error *err) {
     ang_grey_form grey;
-    void *handle = ang_oiio_grey_open(pictures->path[0], &grey, err);
+    void *handle = ang_sandbox_grey_open(source->parts.sandbox, pictures->path[0], &grey, err);
     if (!handle) return false;
-    ang_oiio_grey_close(handle);
+    ang_sandbox_grey_close(handle);
     if (pictures->count > 1 && grey.pages > 1)
         return ang_fail(err, ANG_INPUT, "%s: has %d pages, and is one of several files: a stack is one or the other",
                         ang_base_name(pictures->path[0]), grey.pages);
@@ -178,16 +178,20 @@ static bool look_at_first(const pictures *pictures, const ang_stack_form *form, 
     return true;
 }
 
-static ang_volume *load_pictures(const pictures *pictures, const char *label, const ang_stack_form *form,
-                                 const ang_load_options *options, ang_load_report *report, const ang_progress *progress,
-                                 ang_error *err) {
-    ang_sample_source source = {
-        .label = label, .slope = form->slope, .intercept = form->intercept, .slices = options->slices};
+static ang_volume *load_pictures(const pictures *pictures, ang_sandbox *sandbox, const char *label,
+                                 const ang_stack_form *form, const ang_load_options *options, ang_load_report *report,
+                                 const ang_progress *progress, ang_error *err) {
+    ang_sample_source source = {.label = label,
+                                .parts = {.sandbox = sandbox},
+                                .slope = form->slope,
+                                .intercept = form->intercept,
+                                .slices = options->slices};
     if (!look_at_first(pictures, form, &source, err)) return NULL;
     ang_byte_part *parts = ang_alloc(pictures->count, sizeof *parts, "list of files", err);
     if (!parts) return NULL;
     for (size_t i = 0; i < pictures->count; i++) parts[i].path = pictures->path[i];
-    source.parts = (ang_byte_parts){.part = parts, .count = pictures->count, .coding = ANG_CODING_PICTURE};
+    source.parts =
+        (ang_byte_parts){.part = parts, .count = pictures->count, .coding = ANG_CODING_PICTURE, .sandbox = sandbox};
     ang_volume *volume = ang_samples_read(&source, options->threads, report, progress, err);
     free(parts);
     if (!volume) return NULL;
@@ -208,7 +212,13 @@ ang_volume *ang_stack_load(const char *path, const ang_load_options *options, an
     else if (ok)
         ok = add(&found, strdup(path)) || ang_fail(err, ANG_LIMIT, "no memory for a name");
     if (ok && found.count > 1) note_numbers(&found, report);
-    ang_volume *volume = ok ? load_pictures(&found, ang_base_name(path), &form, options, report, progress, err) : NULL;
+    ang_sandbox *sandbox = ok && !options->no_sandbox ? ang_sandbox_create(ANG_OIIO_MODULE, err) : NULL;
+    ok = ok && (sandbox || options->no_sandbox);
+    ang_volume *volume =
+        ok ? load_pictures(&found, sandbox, ang_base_name(path), &form, options, report, progress, err) : NULL;
+    const char *remark = sandbox ? ang_sandbox_remark(sandbox) : NULL;
+    if (remark) ang_notes_add(&report->assumptions, "%s", remark);
+    ang_sandbox_free(sandbox);
     clear(&found);
     return volume;
 }

@@ -6,7 +6,7 @@ ang_sandbox *fuzz_sandbox(void);
 
 ang_sandbox *fuzz_sandbox(void) {
     static ang_sandbox *sandbox;
-    if (!sandbox) sandbox = ang_sandbox_create(NULL);
+    if (!sandbox) sandbox = ang_sandbox_create(ANG_GDCM_MODULE, NULL);
     fuzz_expect(sandbox != NULL, "no sandbox");
     return sandbox;
 }

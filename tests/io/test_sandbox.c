@@ -154,8 +154,72 @@ static void without_its_program_there_is_a_way_out(void **state) {
     assert_int_equal(WEXITSTATUS(system(FOLDER "/bin/angioscope-decode </dev/null 2>/dev/null")), ANG_USAGE);
 }
 
+#ifdef ANG_WITH_OIIO
+
+static void put_big(uint8_t *at, uint32_t value) {
+    for (int i = 0; i < 4; i++) at[i] = (uint8_t)(value >> (24 - 8 * i));
+}
+
+static void put_chunk(FILE *out, const char *name, const uint8_t *bytes, size_t length) {
+    uint8_t number[4];
+    put_big(number, (uint32_t)length);
+    fwrite(number, 1, 4, out);
+    fwrite(name, 1, 4, out);
+    fwrite(bytes, 1, length, out);
+    put_big(number, (uint32_t)crc32(crc32(0, (const Bytef *)name, 4), bytes, (uInt)length));
+    fwrite(number, 1, 4, out);
+}
+
+/* A grey PNG (ISO 15948) of 16 bits, 3 by 2 pixels of rising values. */
+static void write_png(const char *path, int first) {
+    uint8_t head[13] = {0, 0, 0, 3, 0, 0, 0, 2, 16, 0, 0, 0, 0}, rows[14] = {0}, packed[64];
+    for (int i = 0; i < 6; i++) {
+        rows[1 + i / 3 * 7 + i % 3 * 2] = (uint8_t)((first + i) >> 8);
+        rows[2 + i / 3 * 7 + i % 3 * 2] = (uint8_t)(first + i);
+    }
+    uLongf length = sizeof packed;
+    assert_int_equal(compress(packed, &length, rows, sizeof rows), Z_OK);
+    FILE *out = fopen(path, "wb");
+    assert_non_null(out);
+    fwrite("\x89PNG\r\n\x1A\n", 1, 8, out);
+    put_chunk(out, "IHDR", head, sizeof head);
+    put_chunk(out, "IDAT", packed, length);
+    put_chunk(out, "IEND", head, 0);
+    fclose(out);
+}
+
+/* With the real reader of pictures. */
+static void pictures_are_the_same_either_way(void **state) {
+    (void)state;
+    fresh_folder(SERIES);
+    uint16_t values[24];
+    for (int i = 0; i < 4; i++) {
+        char path[512];
+        snprintf(path, sizeof path, SERIES "/%d.png", i);
+        write_png(path, 300 * i + 250);
+        for (int k = 0; k < 6; k++) values[6 * i + k] = (uint16_t)(300 * i + 250 + k);
+    }
+    for (int i = 0; i < 2; i++) {
+        ang_load_options how = {.no_sandbox = i == 1};
+        ang_load_report report;
+        ang_error err = {0};
+        ang_volume *volume = ang_load(SERIES, &how, &report, NULL, &err);
+        if (!volume) fail_msg("%s", err.message);
+        assert_memory_equal(volume->data, values, sizeof values);
+        ang_volume_free(volume);
+        ang_load_report_clear(&report);
+    }
+    assert_int_equal(truncate(SERIES "/2.png", 50), 0);
+    must_fail(SERIES, ANG_INPUT, "2.png");
+}
+
+#endif
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+#ifdef ANG_WITH_OIIO
+        cmocka_unit_test(pictures_are_the_same_either_way),
+#endif
         cmocka_unit_test(what_is_sound_is_the_same_either_way),
         cmocka_unit_test(a_crash_costs_one_slice),
         cmocka_unit_test(a_hang_costs_one_slice),
