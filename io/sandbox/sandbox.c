@@ -9,7 +9,7 @@
 
 /* What one frame may take. */
 static const double least_seconds = 1, pixels_per_second = 4e6;
-enum { least_bytes = 64 << 20, bytes_per_pixel = 64 };
+enum { least_bytes = 256 << 20, bytes_per_pixel = 64 };
 
 struct ang_sandbox {
     pthread_mutex_t lock;

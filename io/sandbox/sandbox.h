@@ -15,7 +15,7 @@ ang_sandbox *ang_sandbox_create(const char *module, ang_error *err);
 void ang_sandbox_free(ang_sandbox *sandbox);
 
 /* As ang_codec_decode. ANG_INPUT also where the worker crashes, tries what it must not, needs more than 1 s + 0.25 s
- * per million pixels of processor time (to the next second) or more than 64 MB + 64 bytes per pixel, or cannot be
+ * per million pixels of processor time (to the next second) or more than 256 MB + 64 bytes per pixel, or cannot be
  * started. Thread safe. */
 bool ang_sandbox_decode(ang_sandbox *sandbox, const uint8_t *stream, size_t length, const ang_codec_frame *frame,
                         void *pixels, size_t size, ang_error *err);
