@@ -2,7 +2,7 @@
 #include "app/verbs.h"
 #include "core/base/clock.h"
 #include "io/place.h"
-#include "io/preset_own.h"
+#include "io/preset/preset_own.h"
 
 #include <limits.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 
 #include "core/base/clock.h"
 #include "core/volume/histogram.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include <math.h>
 #include <stdlib.h>

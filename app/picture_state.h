@@ -1,11 +1,11 @@
-/* Between states (io/state.h) and what they are states of: options, pictures. */
+/* Between states (io/session/state.h) and what they are states of: options, pictures. */
 #ifndef ANG_APP_PICTURE_STATE_H
 #define ANG_APP_PICTURE_STATE_H
 
 #include "app/options.h"
 #include "app/picture.h"
 #include "io/load.h"
-#include "io/state.h"
+#include "io/session/state.h"
 
 /* Options of the command line with those of the state that --state names, for what the command line leaves open. Clear
  * with ang_stated_clear. Not to be moved: `options` borrows from the rest. */

@@ -2,7 +2,7 @@
 #include "app/presets.h"
 
 #include "app/verbs.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -5,7 +5,7 @@
 #include "app/options.h"
 #include "core/base/notes.h"
 #include "core/transfer/preset.h"
-#include "io/slicer/property.h"
+#include "io/preset/slicer/property.h"
 
 #include <stdio.h>
 

@@ -1,10 +1,10 @@
 /* angioscope presets import, export: presets from and for 3D Slicer. */
 #include "app/presets.h"
 #include "app/verbs.h"
-#include "io/preset.h"
-#include "io/preset_own.h"
+#include "io/preset/preset.h"
+#include "io/preset/preset_own.h"
+#include "io/preset/slicer/property.h"
 #include "io/replace.h"
-#include "io/slicer/property.h"
 
 #include <stdlib.h>
 #include <string.h>

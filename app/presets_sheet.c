@@ -5,7 +5,7 @@
 #include "core/render/method.h"
 #include "io/image/image_io.h"
 #include "io/image/sheet.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "app/verbs.h"
 #include "core/scene/annotation.h"
 #include "io/image/image_io.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 #include "io/replace.h"
 #include "io/report.h"
 

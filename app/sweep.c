@@ -2,7 +2,7 @@
 
 #include "app/verbs.h"
 #include "core/transfer/preset_blend.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -13,7 +13,7 @@
 #include "io/image/image_io.h"
 #include "io/load.h"
 #include "io/replace.h"
-#include "io/state.h"
+#include "io/session/state.h"
 #include "ui/viewer.h"
 
 #include <limits.h>

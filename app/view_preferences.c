@@ -1,6 +1,6 @@
 #include "app/view_preferences.h"
 
-#include "io/preferences.h"
+#include "io/session/preferences.h"
 
 #include <stdio.h>
 #include <string.h>

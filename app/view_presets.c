@@ -3,8 +3,8 @@
 #include "app/presets.h"
 #include "app/verbs.h"
 #include "app/view_state.h"
-#include "io/preset.h"
-#include "io/preset_own.h"
+#include "io/preset/preset.h"
+#include "io/preset/preset_own.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 
 #include "app/picture_state.h"
 #include "io/json.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 #include "io/report.h"
 #include "ui/state/crop_geometry.h"
 

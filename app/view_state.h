@@ -1,9 +1,9 @@
-/* Between what the viewer shows and states (io/state.h). */
+/* Between what the viewer shows and states (io/session/state.h). */
 #ifndef ANG_APP_VIEW_STATE_H
 #define ANG_APP_VIEW_STATE_H
 
 #include "io/load.h"
-#include "io/state.h"
+#include "io/session/state.h"
 #include "ui/viewer.h"
 
 /* What is shown of a study as a state to be saved; its 3D picture is what 'angioscope render --state' draws.

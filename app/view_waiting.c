@@ -2,7 +2,7 @@
 
 #include "app/picture_state.h"
 #include "app/view_state.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include <stdio.h>
 #include <stdlib.h>

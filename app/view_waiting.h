@@ -4,7 +4,7 @@
 
 #include "app/options.h"
 #include "io/load.h"
-#include "io/state.h"
+#include "io/session/state.h"
 #include "ui/viewer.h"
 
 /* One thread at a time: the window's, or while it waits the loader's. Clear with ang_waiting_clear. */

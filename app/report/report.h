@@ -8,7 +8,7 @@
 #include "core/error/metrics.h"
 #include "core/render/context.h"
 #include "core/render/method.h"
-#include "io/state.h"
+#include "io/session/state.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* A preset: how a radiologist wants to see a kind of study. The files are read by io/preset.h. */
+/* A preset: how a radiologist wants to see a kind of study. The files are read by io/preset/preset.h. */
 #ifndef ANG_TRANSFER_PRESET_H
 #define ANG_TRANSFER_PRESET_H
 

@@ -4,7 +4,7 @@
 #include "core/base/name_order.h"
 #include "io/formats.h"
 #include "io/image/encode.h"
-#include "io/samples.h"
+#include "io/voxels/samples.h"
 #include "io/voxels/stack_sidecar.h"
 
 #include <ctype.h>

@@ -3,7 +3,7 @@
 #include "core/base/memory.h"
 #include "io/formats.h"
 #include "io/replace.h"
-#include "io/samples.h"
+#include "io/voxels/samples.h"
 
 #include <ctype.h>
 #include <errno.h>

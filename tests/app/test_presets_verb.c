@@ -2,8 +2,8 @@
 #include "tests/core/fixtures.h"
 
 #include "io/image/image_io.h"
-#include "io/preset.h"
-#include "io/preset_own.h"
+#include "io/preset/preset.h"
+#include "io/preset/preset_own.h"
 #include "tests/app/program.h"
 
 #include <string.h>

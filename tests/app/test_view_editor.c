@@ -2,7 +2,7 @@
 #include "tests/core/fixtures.h"
 
 #include "io/load.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #define FOLDER ANG_TEST_TMP "/view-editor"
 #include "tests/app/viewer_hands.h"

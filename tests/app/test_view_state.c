@@ -1,7 +1,7 @@
 /* Sessions of the viewer: saved by hand, restored in another window, drawn without one. */
 #include "tests/core/fixtures.h"
 
-#include "io/state.h"
+#include "io/session/state.h"
 
 #define FOLDER ANG_TEST_TMP "/view_state"
 #include "tests/app/viewer_hands.h"

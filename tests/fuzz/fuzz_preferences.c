@@ -1,5 +1,5 @@
 /* What the viewer remembers between runs. */
-#include "io/preferences.h"
+#include "io/session/preferences.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Presets as JSON. What was read and written again must read as the same. */
-#include "io/preset.h"
+#include "io/preset/preset.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>

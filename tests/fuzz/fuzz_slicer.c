@@ -1,6 +1,6 @@
 /* Volume properties of 3D Slicer: the first byte chooses the form. What becomes a preset can be written in every form
  * and is read again. */
-#include "io/slicer/property.h"
+#include "io/preset/slicer/property.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* States of the viewer as JSON, measures among them. */
-#include "io/state.h"
+#include "io/session/state.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* What the viewer remembers comes back, and no file of preferences stops it. */
 #include "tests/core/fixtures.h"
 
-#include "io/preferences.h"
+#include "io/session/preferences.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Preset files: the shipped ones, both forms, and what is said about broken ones. */
 #include "io/json.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 #include "tests/io/shipped_presets.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* The user's own presets: their names, and their folder beside the installed one. */
 #include "tests/core/fixtures.h"
 
-#include "io/preset.h"
-#include "io/preset_own.h"
+#include "io/preset/preset.h"
+#include "io/preset/preset_own.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* Volume properties of 3D Slicer and VTK: what is read, what becomes of it, what is written, and damaged files. */
 #include "tests/core/fixtures.h"
 
-#include "io/preset.h"
-#include "io/slicer/property.h"
+#include "io/preset/preset.h"
+#include "io/preset/slicer/property.h"
 #include "tests/io/shipped_presets.h"
 
 #include <math.h>

@@ -3,8 +3,8 @@
 
 #include "core/scene/image.h"
 #include "io/image/image_io.h"
-#include "io/preset.h"
-#include "io/state.h"
+#include "io/preset/preset.h"
+#include "io/session/state.h"
 
 #include <string.h>
 #include <sys/stat.h>

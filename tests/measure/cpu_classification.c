@@ -7,7 +7,7 @@
 #include "core/cpu/method_cpu.h"
 #include "core/error/metrics.h"
 #include "io/load.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include <stdio.h>
 #include <stdlib.h>

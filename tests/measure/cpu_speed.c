@@ -3,7 +3,7 @@
  * [FRAMES [SCENE [WIDTH]]], the last two by how their names begin. */
 #include "core/cpu/method_cpu.h"
 #include "io/load.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,7 +8,7 @@
 #include "core/render/context.h"
 #include "core/volume/phantom.h"
 #include "io/load.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include <zlib.h>
 

@@ -5,7 +5,7 @@
 #include "core/cpu/method_cpu.h"
 #include "core/render/progressive.h"
 #include "io/load.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "io/samples.h"
+#include "io/voxels/samples.h"
 
 #include "core/base/memory.h"
 #include "io/checksum.h"

@@ -1,4 +1,4 @@
-#include "io/measures.h"
+#include "io/session/measures.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -28,7 +28,7 @@ ang_preset *ang_preset_parse(const char *file, const char *text, ang_error *err)
 bool ang_preset_is_path(const char *name_or_path);
 /* `name_or_path` is a path where ang_preset_is_path says so; else it is the name of NAME.json in the first of `folders`
  * (NULL-terminated, missing folders are passed over) that has it. An unknown name gives ANG_USAGE with the nearest name
- * and all of them; so does a file of io/slicer/property.h, which has to be imported first. */
+ * and all of them; so does a file of io/preset/slicer/property.h, which has to be imported first. */
 ang_preset *ang_preset_find(const char *name_or_path, const char *const *folders, ang_error *err);
 
 /* The presets of some folders, by name; of equal names the first folder's. */

@@ -1,8 +1,8 @@
-/* The forms behind property.h. Private to io/slicer/. */
+/* The forms behind property.h. Private to io/preset/slicer/. */
 #ifndef ANG_IO_SLICER_FORMS_H
 #define ANG_IO_SLICER_FORMS_H
 
-#include "io/slicer/property.h"
+#include "io/preset/slicer/property.h"
 
 #include <stdio.h>
 

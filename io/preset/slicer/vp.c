@@ -1,6 +1,6 @@
 /* The form of nine lines. */
 #include "io/json.h"
-#include "io/slicer/forms.h"
+#include "io/preset/slicer/forms.h"
 
 #include <stdlib.h>
 #include <string.h>

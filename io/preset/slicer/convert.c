@@ -1,5 +1,5 @@
 /* Between volume properties and presets. */
-#include "io/slicer/forms.h"
+#include "io/preset/slicer/forms.h"
 
 #include <float.h>
 #include <math.h>

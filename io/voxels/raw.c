@@ -1,6 +1,6 @@
 #include "io/formats.h"
 #include "io/json.h"
-#include "io/samples.h"
+#include "io/voxels/samples.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "io/preset.h"
+#include "io/preset/preset.h"
 
 #include "core/base/memory.h"
 #include "io/json.h"

@@ -1,7 +1,7 @@
 /* MRML: a VolumeProperty element for each. As much of XML 1.0 as these files have: elements, attributes, comments,
  * processing instructions, the five named entities and numbered ones. Document types are refused. */
 #include "io/json.h"
-#include "io/slicer/forms.h"
+#include "io/preset/slicer/forms.h"
 
 #include <stdlib.h>
 #include <string.h>

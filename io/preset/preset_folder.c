@@ -1,7 +1,7 @@
 #include "core/base/memory.h"
 #include "io/json.h"
-#include "io/preset.h"
-#include "io/slicer/property.h"
+#include "io/preset/preset.h"
+#include "io/preset/slicer/property.h"
 
 #include <dirent.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 #include "io/formats.h"
-#include "io/samples.h"
+#include "io/voxels/samples.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "io/preferences.h"
+#include "io/session/preferences.h"
 
 #include "io/json.h"
 #include "io/replace.h"

@@ -1,9 +1,9 @@
 /* Reading of states: strict, with errors that name file, line and field. */
 #include "io/image/image_io.h"
 #include "io/json.h"
-#include "io/measures.h"
-#include "io/preset.h"
-#include "io/state.h"
+#include "io/preset/preset.h"
+#include "io/session/measures.h"
+#include "io/session/state.h"
 
 #include <math.h>
 #include <stdio.h>

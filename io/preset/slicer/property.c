@@ -1,8 +1,8 @@
-#include "io/slicer/property.h"
+#include "io/preset/slicer/property.h"
 
 #include "core/base/memory.h"
 #include "io/json.h"
-#include "io/slicer/forms.h"
+#include "io/preset/slicer/forms.h"
 
 #include <errno.h>
 #include <math.h>

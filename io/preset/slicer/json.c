@@ -1,6 +1,6 @@
 /* Slicer's volume-property-schema-v1. Fields that are not known are passed over, as the schema has it. */
 #include "io/json.h"
-#include "io/slicer/forms.h"
+#include "io/preset/slicer/forms.h"
 
 #include <math.h>
 #include <stdlib.h>

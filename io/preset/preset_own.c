@@ -1,4 +1,4 @@
-#include "io/preset_own.h"
+#include "io/preset/preset_own.h"
 
 #include "io/replace.h"
 

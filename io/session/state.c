@@ -1,9 +1,9 @@
-#include "io/state.h"
+#include "io/session/state.h"
 
 #include "io/json.h"
-#include "io/measures.h"
-#include "io/preset.h"
+#include "io/preset/preset.h"
 #include "io/replace.h"
+#include "io/session/measures.h"
 
 #include <limits.h>
 #include <math.h>
