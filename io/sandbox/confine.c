@@ -64,7 +64,7 @@ static bool add_rules(scmp_filter_ctx filter) {
                                SCMP_A4(SCMP_CMP_EQ, ANG_WORKER_MEMORY));
     failed |=
         seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(mprotect), 1, SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
-    /* abort(). */
+    /* To abort. */
     failed |=
         seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1, SCMP_A0(SCMP_CMP_EQ, (scmp_datum_t)getpid()));
     return failed == 0;

@@ -11,6 +11,7 @@ import pathlib
 import shutil
 import struct
 import sys
+import warnings
 import zipfile
 import zlib
 
@@ -239,6 +240,7 @@ for name, data in metas.items():
 
 # Archives.
 def archive(members, packing):
+    warnings.simplefilter("ignore")  # of names that come twice, which is what is wanted
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", packing) as packed:
         for name, data in members:
