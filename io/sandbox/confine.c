@@ -89,11 +89,11 @@ static bool filter_calls(void) { return false; }
 bool ang_confine(void) {
     static const struct rlimit none = {0, 0};
     setrlimit(RLIMIT_CORE, &none);
-    setrlimit(RLIMIT_FSIZE, &none);
     prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
 #ifdef __SANITIZE_ADDRESS__
     return false;
 #else
+    setrlimit(RLIMIT_FSIZE, &none);
     setrlimit(RLIMIT_NOFILE, &none);
     return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && filter_calls();
 #endif
