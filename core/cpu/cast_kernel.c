@@ -127,7 +127,7 @@ INLINE lanes_int add_steps(const ang_cast *cast, tile *t, walk *w, const samples
     lanes opacity[AT_ONCE], from[AT_ONCE], to[AT_ONCE];
     for (int k = 0; k < AT_ONCE; k++) {
         step_end end = end_of_step(cast, cast->jumps ? settle(s->value[k]) : s->value[k]);
-        lanes depth = extinction_between(&w->at, &end) * s->piece[k], edge;
+        lanes depth = extinction_between(cast, &w->at, &end) * s->piece[k], edge;
         if (cast->plateaus) {
             lanes_int opaque = meets_plateau(cast, &w->at.at, &end.at, &edge) & s->counts[k];
             depth = lanes_pick(opaque, lanes_all(ANG_TABLE_OPAQUE), depth);

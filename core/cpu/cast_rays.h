@@ -254,6 +254,19 @@ INLINE void find_peaks(const ang_cast *cast, tile *t, int first, ang_cast_kind k
     }
 }
 
+/* Whether the steps that begin at `place` may touch a block that shows, judged by where they end: blocks around that
+ * one are all that steps shorter than a block touch. */
+INLINE lanes_int may_cross(const ang_cast *cast, const group *g, const lanes place[3]) {
+    lanes end[3];
+    lanes_int longer = lanes_all_int(0);
+    for (int axis = 0; axis < 3; axis++) {
+        end[axis] = place[axis] + cast->step * g->direction[axis];
+        longer |= lanes_abs(cast->step * g->direction[axis]) > 0.95f * (1 << BLOCK_SHIFT);
+    }
+    spot at = find_spot(cast, end);
+    return longer | (lanes_bytes(cast->distance, node_of(cast->blocks, lanes_all_int(BLOCK_SHIFT), at.cell)) < 2);
+}
+
 /* Looks for stretches of the rays active[first..], up to STRETCHES of each. `kind` is a constant. */
 INLINE void find_stretches(const ang_cast *cast, tile *t, int first, ang_cast_kind kind) {
     bool extreme = kind == ANG_CAST_HIGHEST || kind == ANG_CAST_LOWEST;
@@ -278,7 +291,8 @@ INLINE void find_stretches(const ang_cast *cast, tile *t, int first, ang_cast_ki
         if (is_whole(kind)) {
             /* Only those steps are passed over that also end among blocks that do not show. */
             lanes_int crosses = (distance > 0) & (steps < 2);
-            steps = lanes_pick((distance > 0) & ~crosses, steps - 1, steps);
+            if (lanes_bits(crosses & g.active)) crosses &= may_cross(cast, &g, place);
+            steps = lanes_pick((distance > 0) & ~crosses, lanes_max(steps - 1, lanes_all(1)), steps);
             shows |= crosses;
         }
         shows &= g.active;

@@ -20,22 +20,21 @@ INLINE table_place place_in_table(const ang_cast *cast, lanes x) {
     return (table_place){x, left, x - left};
 }
 
-/* An end of a step, as far as extinction goes: at the interval's two ends extinction, and its integral from the table's
- * left end as pairs of floats. */
+/* An end of a step, as far as extinction goes: at the interval's two ends extinction, and up to its left end the
+ * integral as a pair of floats. */
 typedef struct step_end {
     table_place at;
-    lanes left, right, integral_left[2], integral_right[2];
+    lanes left, right, integral[2];
 } step_end;
 
 INLINE step_end end_of_step(const ang_cast *cast, lanes value) {
     step_end end = {.at = place_in_table(cast, (value - cast->first) * cast->per_value)};
-    lanes_int record = lanes_truncate(end.at.interval) + 1;
-    lanes here[4], next[4];
-    lanes_fours(cast->steps, record, here);
-    lanes_fours(cast->steps, record + 1, next);
-    end.left = here[0];
-    end.right = here[1];
-    for (int i = 0; i < 2; i++) end.integral_left[i] = here[2 + i], end.integral_right[i] = next[2 + i];
+    lanes record[4];
+    lanes_fours(cast->steps, lanes_truncate(end.at.interval) + 1, record);
+    end.left = record[0];
+    end.right = record[1];
+    end.integral[0] = record[2];
+    end.integral[1] = record[3];
     return end;
 }
 
@@ -47,8 +46,8 @@ INLINE lanes span_between(const table_place *low, const table_place *high) {
 
 INLINE lanes safe_span(lanes span) { return lanes_max(span, lanes_all(1e-30f)); }
 
-/* Mean extinction between two ends. Within one interval nothing is subtracted, so that short steps do not cancel. */
-INLINE lanes extinction_between(const step_end *a, const step_end *b) {
+/* Mean extinction between ends in two intervals, of which no more than what lies between is added up. */
+INLINE lanes extinction_near(const ang_cast *cast, const step_end *a, const step_end *b) {
     lanes_int up = b->at.x >= a->at.x;
     table_place low = {.interval = lanes_min(a->at.interval, b->at.interval),
                        .inside = lanes_pick(up, a->at.inside, b->at.inside)};
@@ -56,16 +55,32 @@ INLINE lanes extinction_between(const step_end *a, const step_end *b) {
                         .inside = lanes_pick(up, b->at.inside, a->at.inside)};
     lanes low_left = lanes_pick(up, a->left, b->left), low_right = lanes_pick(up, a->right, b->right);
     lanes high_left = lanes_pick(up, b->left, a->left), high_right = lanes_pick(up, b->right, a->right);
-    lanes between[2];
-    for (int i = 0; i < 2; i++)
-        between[i] = lanes_pick(up, b->integral_left[i], a->integral_left[i]) -
-                     lanes_pick(up, a->integral_right[i], b->integral_right[i]);
-    lanes_int same = low.interval == high.interval;
-    lanes to = lanes_pick(same, high.inside, lanes_all(1));
-    lanes first = low_left + 0.5f * (low.inside + to) * (low_right - low_left);
+    lanes from[2], between[2];
+    lanes_pairs(cast->steps, 2 * lanes_truncate(low.interval) + 5, &from[0], &from[1]);
+    for (int i = 0; i < 2; i++) between[i] = lanes_pick(up, b->integral[i], a->integral[i]) - from[i];
+    lanes first = low_left + 0.5f * (low.inside + 1) * (low_right - low_left);
     lanes last = high_left + 0.5f * high.inside * (high_right - high_left);
     lanes sum = (1 - low.inside) * first + (between[0] + between[1]) + high.inside * last;
-    return lanes_pick(same, first, sum / safe_span(span_between(&low, &high)));
+    return sum / safe_span(span_between(&low, &high));
+}
+
+/* Integral from the left end of its interval to an end. */
+INLINE lanes integral_inside(const step_end *end) {
+    return end->at.inside * (end->left + 0.5f * end->at.inside * (end->right - end->left));
+}
+
+/* Mean extinction between two ends. Within one interval nothing is subtracted, and near its ends little, so that short
+ * steps do not cancel. */
+INLINE lanes extinction_between(const ang_cast *cast, const step_end *a, const step_end *b) {
+    lanes_int same = a->at.interval == b->at.interval;
+    lanes mean = a->left + 0.5f * (a->at.inside + b->at.inside) * (a->right - a->left);
+    lanes span = (b->at.interval - a->at.interval) + (b->at.inside - a->at.inside);
+    lanes_int near = ~same & (lanes_abs(span) < 0x1p-6f);
+    lanes sum = (b->integral[0] - a->integral[0]) +
+                ((b->integral[1] - a->integral[1]) + (integral_inside(b) - integral_inside(a)));
+    mean = lanes_pick(same, mean, sum / lanes_pick(same | near, lanes_all(1), span));
+    if (lanes_bits(near)) mean = lanes_pick(near, extinction_near(cast, a, b), mean);
+    return mean;
 }
 
 /* Where a step meets a plateau at opacity 1, which ends it. */

@@ -41,6 +41,7 @@ static bool make_steps(ang_classifier *classifier, const ang_transfer *transfer,
         record[2] = classifier->prefix->sums[8 * (size_t)begin + 3];
         record[3] = classifier->prefix->sums[8 * (size_t)begin + 7];
     }
+    classifier->steps[2] = -extinctions[0]; /* one interval before the table's left end */
     return true;
 }
 
