@@ -35,6 +35,7 @@ static bool take_options(const ang_options *options, sheet_run *run, ang_error *
     run->draw.raw_type = options->raw_type;
     run->draw.raw_spacing = options->raw_spacing;
     run->draw.strict = options->strict;
+    run->draw.no_sandbox = options->no_sandbox;
     run->draw.threads = options->threads;
     run->draw.size = options->size;
     run->draw.view = options->view;

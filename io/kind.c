@@ -134,6 +134,8 @@ bool ang_kind_find(const char *path, const ang_load_options *options, const ang_
     } else {
         *found = (ang_found){.kind = kind_of_file(path, options), .path = strdup(path)};
     }
-    if (looking.stopped) return ang_fail(err, ANG_INTERRUPTED, "interrupted while looking for files");
-    return found->path || ang_fail(err, ANG_LIMIT, "no memory for a name");
+    bool done = looking.stopped ? ang_fail(err, ANG_INTERRUPTED, "interrupted while looking for files")
+                                : found->path || ang_fail(err, ANG_LIMIT, "no memory for a name");
+    if (!done) ang_found_clear(found);
+    return done;
 }

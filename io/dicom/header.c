@@ -246,6 +246,7 @@ static bool find_coding(ang_dicom_slice *s, const ang_dicom_reader *reader, bool
     s->wrong_syntax = reader->overruled || (reader->transfer_syntax[0] && !syntax_codes(syntax, encapsulated));
     if (reader->memory) {
         s->coding = ANG_DICOM_DEFLATED;
+        return !encapsulated; /* fragments in it would be taken for pixels */
     } else if (!encapsulated) {
         s->coding = reader->big_endian ? ANG_DICOM_BIG_ENDIAN : ANG_DICOM_NATIVE;
     } else if (strcmp(syntax, "1.2.840.10008.1.2.5") == 0) {

@@ -64,7 +64,7 @@ static bool take(ang_identity *identity, ang_dicom_reader *reader) {
     char text[ang_dicom_value_size + 1];
     while (ang_dicom_next(reader, &element) && element.tag < 0x7FE00010) {
         int i = index_of(element.tag);
-        if (i < 0 || identity->value[i] || !ang_dicom_text(reader, &element, text, sizeof text)) continue;
+        if (i < 0 || identity->value[i] || !ang_dicom_verbatim(reader, &element, text, sizeof text)) continue;
         if (elements[i].kind == ANG_IDENTITY_HARMLESS && !harmless(elements[i].tag, text)) continue;
         identity->value[i] = strdup(text);
         if (!identity->value[i]) return false;

@@ -73,11 +73,13 @@ bool ang_dicom_next_in(ang_dicom_reader *reader, ang_dicom_range *range, ang_dic
 const uint8_t *ang_dicom_bytes(ang_dicom_reader *reader, uint64_t offset, size_t length);
 /* Gives an element whose VR the file does not know the one of the dictionary, "UL". */
 void ang_dicom_assume_vr(ang_dicom_element *element, const char *vr);
-/* The value as a trimmed string; false where it is empty or too long for `size`. */
+/* The value as a trimmed string, cut to `size` bytes, control characters as blanks; false where it is empty or longer
+ * than ang_dicom_value_size. */
 bool ang_dicom_text(ang_dicom_reader *reader, const ang_dicom_element *element, char *out, size_t size);
+/* The same with escape characters, which switch character sets (PS3.5 6.1.2.5): to be written to DICOM alone. */
+bool ang_dicom_verbatim(ang_dicom_reader *reader, const ang_dicom_element *element, char *out, size_t size);
 /* Numbers of a decimal or integer string, or of US, SS, UL, SL, FL, FD where the VR says so; returns how many (at most
- * `count`) there are. Not finite ones end the list, and those of a string with
- * anything but blanks behind them. */
+ * `count`) there are. Not finite ones end the list, and those of a string with anything but blanks behind them. */
 int ang_dicom_numbers(ang_dicom_reader *reader, const ang_dicom_element *element, double *out, int count);
 /* The first 16-bit word of the value, read unsigned. */
 bool ang_dicom_word(ang_dicom_reader *reader, const ang_dicom_element *element, uint16_t *out);

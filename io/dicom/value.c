@@ -8,7 +8,8 @@ void ang_dicom_assume_vr(ang_dicom_element *element, const char *vr) {
     if (!element->vr[0] || strcmp(element->vr, "UN") == 0) memcpy(element->vr, vr, 3);
 }
 
-bool ang_dicom_text(ang_dicom_reader *reader, const ang_dicom_element *element, char *out, size_t size) {
+bool ang_dicom_verbatim(ang_dicom_reader *reader, const ang_dicom_element *element, char *out, size_t size) {
+    static const char escape = 0x1B;
     out[0] = 0;
     if (element->length == 0 || element->length > ang_dicom_value_size) return false;
     const uint8_t *p = ang_dicom_bytes(reader, element->offset, element->length);
@@ -20,9 +21,17 @@ bool ang_dicom_text(ang_dicom_reader *reader, const ang_dicom_element *element, 
     memcpy(out, p + begin, end - begin);
     out[end - begin] = 0;
     for (char *c = out; *c; c++) {
-        if ((unsigned char)*c < ' ' || *c == 127) *c = ' ';
+        if (((unsigned char)*c < ' ' && *c != escape) || *c == 127) *c = ' ';
     }
     return out[0] != 0;
+}
+
+bool ang_dicom_text(ang_dicom_reader *reader, const ang_dicom_element *element, char *out, size_t size) {
+    bool given = ang_dicom_verbatim(reader, element, out, size);
+    for (char *c = out; *c; c++) {
+        if ((unsigned char)*c < ' ') *c = ' ';
+    }
+    return given;
 }
 
 /* Numbers of a binary VR; -1 where the VR is not one. */

@@ -197,7 +197,8 @@ static bool use_coding(parsing *p, ang_error *err) {
     ang_volume_header *header = p->header;
     header->coding = p->packed ? ANG_CODING_DEFLATE : p->text ? ANG_CODING_TEXT : ANG_CODING_PLAIN;
     header->skip_packed = true;
-    if (p->text) header->big_endian = false; /* as it is unpacked */
+    if (header->byte_skip > 0) header->offset = 0; /* MetaIO counts HeaderSize from the file's begin, LOCAL too */
+    if (p->text) header->big_endian = false;       /* as it is unpacked */
     if (header->byte_skip < 0 && header->coding != ANG_CODING_PLAIN)
         return ang_fail(err, ANG_INPUT, "%s: \"HeaderSize = -1\" goes with plain voxels alone", p->label);
     if (header->slope != 1 || header->intercept != 0)

@@ -90,10 +90,13 @@ static char *path_beside(const char *path, const char *name) {
 
 /* Where the line after `lines` more begins. */
 static bool pass_lines(const char *path, uint64_t lines, uint64_t *offset, ang_error *err) {
-    FILE *file = fopen(path, "rb");
+    struct stat status;
+    errno = 0;
+    /* A pipe would wait for a writer, a device need not end. */
+    FILE *file = stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, "rb") : NULL;
     if (!file || fseeko(file, (off_t)*offset, SEEK_SET) != 0) {
         if (file) fclose(file);
-        return ang_fail(err, ANG_INPUT, "%s: %s", ang_base_name(path), strerror(errno));
+        return ang_fail(err, ANG_INPUT, "%s: %s", ang_base_name(path), errno ? strerror(errno) : "is no regular file");
     }
     for (int c = 0; lines > 0 && c != EOF; lines -= c == '\n') {
         c = getc_unlocked(file);

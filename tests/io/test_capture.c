@@ -149,6 +149,24 @@ static void study_and_patient_are_kept_on_request(void **state) {
     free(bytes);
 }
 
+/* Names of several character sets: what switches between them is kept (PS3.5 H.3.1). */
+static void names_keep_their_character_sets(void **state) {
+    (void)state;
+    static const char name[] = "Yamada^Tarou=\x1B$B;3ED\x1B(B^\x1B$BB@O:\x1B(B";
+    size_t size;
+    ang_notes warnings = {0};
+    form japanese = source;
+    japanese.patient = name;
+    japanese.character_set = "\\ISO 2022 IR 87";
+    small("japanese.dcm", &japanese);
+    unsigned char *bytes = write_capture(FOLDER "/japanese.dcm", true, FOLDER "/kept-japanese.dcm", &size, &warnings);
+    assert_true(contains(bytes, size, name));
+    free(bytes);
+    expect_element(FOLDER "/kept-japanese.dcm", 0x00080005, "\\ISO 2022 IR 87");
+    ang_notes_clear(&warnings);
+    validate(FOLDER "/kept-japanese.dcm");
+}
+
 static void other_inputs_have_no_patient(void **state) {
     (void)state;
     size_t size;
@@ -174,6 +192,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_identifies),
         cmocka_unit_test(study_and_patient_are_kept_on_request),
+        cmocka_unit_test(names_keep_their_character_sets),
         cmocka_unit_test(other_inputs_have_no_patient),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

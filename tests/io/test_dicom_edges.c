@@ -104,6 +104,29 @@ static void test_smallest_series(void **state) {
     }
 }
 
+/* Fragments within a deflated data set are nothing that the standard has: as plain pixels they would be noise. */
+static void test_fragments_in_a_deflated_data_set(void **state) {
+    (void)state;
+    enum { begin = 132 + 8 + 22, most = 1 << 14 }; /* behind the meta header */
+    static const uint8_t stream[4 * width * height] = {1, 2, 3};
+    uint8_t plain[most], packed[most];
+    fresh_folder(FOLDER);
+    small("a.dcm",
+          &(form){.transfer_syntax = "1.2.840.10008.1.2.1.99", .stream = stream, .stream_length = sizeof stream});
+    FILE *file = fopen(FOLDER "/a.dcm", "rb+");
+    assert_non_null(file);
+    size_t size = fread(plain, 1, most, file);
+    z_stream z = {.next_in = plain + begin, .avail_in = (uInt)(size - begin), .next_out = packed, .avail_out = most};
+    assert_int_equal(deflateInit2(&z, 9, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    assert_int_equal(deflate(&z, Z_FINISH), Z_STREAM_END);
+    deflateEnd(&z);
+    assert_int_equal(fseek(file, begin, SEEK_SET), 0);
+    assert_int_equal(fwrite(packed, 1, z.total_out, file), z.total_out);
+    assert_int_equal(ftruncate(fileno(file), (off_t)(begin + z.total_out)), 0);
+    fclose(file);
+    must_fail(FOLDER, ANG_INPUT, "transfer syntax 1.2.840.10008.1.2.1.99: not supported");
+}
+
 static void test_overlays_in_high_bits(void **state) {
     (void)state;
     for (int is_signed = 0; is_signed < 2; is_signed++) {
@@ -220,6 +243,7 @@ int main(void) {
         cmocka_unit_test(test_two_patients_under_one_uid),
         cmocka_unit_test(test_mixed_orientations),
         cmocka_unit_test(test_smallest_series),
+        cmocka_unit_test(test_fragments_in_a_deflated_data_set),
         cmocka_unit_test(test_overlays_in_high_bits),
         cmocka_unit_test(test_padding_of_any_vr),
         cmocka_unit_test(test_strict_refuses_every_warning),

@@ -62,6 +62,19 @@ static void packed(void **state) {
     must_fail(FOLDER "/bad.mha", ANG_INPUT, "bad.mha");
 }
 
+/* HeaderSize counts from the begin of the file, where the voxels are in it too. */
+static void behind_a_header_of_some_size(void **state) {
+    (void)state;
+    enum { begin = 400 };
+    static const char head[] = HEAD TURNED "HeaderSize = 400\nElementDataFile = LOCAL\n";
+    uint8_t rest[begin + 2 * voxels];
+    size_t gap = begin - (sizeof head - 1);
+    memset(rest, 'x', gap);
+    memcpy(rest + gap, little, 2 * voxels);
+    write_parts("sized.mha", head, rest, gap + 2 * voxels);
+    expect_volume("sized.mha", 0, turned);
+}
+
 static void in_several_files(void **state) {
     (void)state;
     enum { plane = 2 * columns * rows };
@@ -155,6 +168,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_one_file),
         cmocka_unit_test(packed),
+        cmocka_unit_test(behind_a_header_of_some_size),
         cmocka_unit_test(in_several_files),
         cmocka_unit_test(four_axes_are_phases),
         cmocka_unit_test(intensities_are_mapped),

@@ -127,6 +127,10 @@ static void detached_in_several_files(void **state) {
     snprintf(header, sizeof header, HEAD SPACE "%sdata file: LIST\np001.raw\np003.raw\n", skip);
     write_parts("missing.nhdr", header, "", 0);
     must_fail(FOLDER "/missing.nhdr", ANG_INPUT, "p003.raw");
+    /* Looking for lines there would never end. */
+    snprintf(header, sizeof header, HEAD SPACE "%sdata file: /dev/zero\n", skip);
+    write_parts("device.nhdr", header, "", 0);
+    must_fail(FOLDER "/device.nhdr", ANG_INPUT, "zero: is no regular file");
 }
 
 /* The phases last, in the middle and first, where each voxel has them side by side. */
