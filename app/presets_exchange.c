@@ -5,6 +5,7 @@
 #include "io/preset/preset_own.h"
 #include "io/preset/slicer/property.h"
 #include "io/replace.h"
+#include "io/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,7 @@ static void own_name(const char *name, char out[ANG_PRESET_NAME_LENGTH + 1]) {
         bool edge = length == 0 && (c == ' ' || c == '.' || c == '-');
         if (!edge) out[length++] = c < ' ' || c == 127 || c == '/' ? '-' : (char)c;
     }
+    if (*name) length = ang_text_cut(name - length, length);
     while (length > 0 && (out[length - 1] == ' ' || out[length - 1] == '.')) length--;
     out[length] = '\0';
 }
@@ -64,6 +66,22 @@ static bool check_free(const ang_options *options, const ang_property_list *list
         own_name(list->item[i].name, name);
         if (is_wanted(options, list->item[i].name) && ang_preset_own_exists(name))
             return ang_fail(err, ANG_USAGE, "there is a preset \"%s\" of your own; --replace writes over it", name);
+    }
+    return true;
+}
+
+/* Nor one preset of the file over another. */
+static bool check_distinct(const ang_options *options, const ang_property_list *list, ang_error *err) {
+    char name[ANG_PRESET_NAME_LENGTH + 1], other[ANG_PRESET_NAME_LENGTH + 1];
+    for (size_t i = 0; i < list->count; i++) {
+        if (!is_wanted(options, list->item[i].name)) continue;
+        own_name(list->item[i].name, name);
+        for (size_t k = 0; k < i; k++) {
+            own_name(list->item[k].name, other);
+            if (strcmp(name, other) == 0 && is_wanted(options, list->item[k].name))
+                return ang_fail(err, ANG_USAGE, "%s: two of its presets would be called \"%s\"; rename one in the file",
+                                options->arguments[1], name);
+        }
     }
     return true;
 }
@@ -119,8 +137,8 @@ int ang_app_presets_import(const ang_options *options, ang_error *err) {
     ang_notes notes = {0};
     if (options->output && !ang_file_replaceable(options->output, err)) return (int)err->code;
     if (!ang_property_read(options->arguments[1], &list, err)) return (int)err->code;
-    bool done =
-        check_wanted(options, &list, err) && check_free(options, &list, err) && import_all(options, &list, &notes, err);
+    bool done = check_wanted(options, &list, err) && check_free(options, &list, err) &&
+                check_distinct(options, &list, err) && import_all(options, &list, &notes, err);
     if (!options->quiet) ang_app_say(&notes, "note: ", NULL);
     ang_notes_clear(&notes);
     ang_property_list_clear(&list);

@@ -5,6 +5,7 @@
 #include "app/view_state.h"
 #include "io/preset/preset.h"
 #include "io/preset/preset_own.h"
+#include "io/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -77,9 +78,11 @@ bool ang_view_preset_is_file(const char *file) { return ang_property_form_of(fil
 
 /* A name that no preset of the user's own has: "CT-AAA", "CT-AAA 2", ... */
 static bool free_name(const char *wanted, char *name, size_t size) {
+    enum { most = ANG_PRESET_NAME_LENGTH - 4 };
+    size_t length = strlen(wanted);
     snprintf(name, size, "%s", wanted);
     for (int i = 2; i < 1000 && ang_preset_own_exists(name); i++)
-        snprintf(name, size, "%.*s %d", ANG_PRESET_NAME_LENGTH - 4, wanted, i);
+        snprintf(name, size, "%.*s %d", (int)ang_text_cut(wanted, length < most ? length : most), wanted, i);
     return !ang_preset_own_exists(name);
 }
 

@@ -139,3 +139,22 @@ bool ang_kind_find(const char *path, const ang_load_options *options, const ang_
     if (!done) ang_found_clear(found);
     return done;
 }
+
+bool ang_kind_choose(const char *const *paths, size_t count, const ang_load_options *options,
+                     const ang_progress *progress, size_t *index, ang_found *found, ang_error *err) {
+    *index = 0;
+    if (!ang_kind_find(paths[0], options, progress, found, err)) return false;
+    for (size_t i = 1; i < count && found->kind != ANG_KIND_DICOM; i++) {
+        ang_found other;
+        if (!ang_kind_find(paths[i], options, progress, &other, err)) {
+            ang_found_clear(found);
+            return false;
+        }
+        bool better = other.kind == ANG_KIND_DICOM || (found->kind == ANG_KIND_NONE && other.kind != ANG_KIND_NONE);
+        ang_found_clear(better ? found : &other);
+        if (!better) continue;
+        *found = other;
+        *index = i;
+    }
+    return true;
+}

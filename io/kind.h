@@ -27,6 +27,10 @@ typedef struct ang_found {
  * where there is no such path or it is neither file nor folder, ANG_LIMIT, ANG_INTERRUPTED. */
 bool ang_kind_find(const char *path, const ang_load_options *options, const ang_progress *progress, ang_found *found,
                    ang_error *err);
+/* The same of the one of several inputs that is read, whose number goes to `*index`: the first that is DICOM, else the
+ * first that is known, else the first. */
+bool ang_kind_choose(const char *const *paths, size_t count, const ang_load_options *options,
+                     const ang_progress *progress, size_t *index, ang_found *found, ang_error *err);
 void ang_found_clear(ang_found *found);
 
 #endif

@@ -109,18 +109,20 @@ static const struct {
               [ANG_KIND_PICTURES] = {"a stack of pictures", ang_stack_load},
               [ANG_KIND_RAW] = {"raw", ang_raw_load}};
 
-/* `path` is the input, of which `found` is read. */
+static ang_volume *read_dicom(const char *const *paths, size_t count, const ang_load_options *options,
+                              ang_load_report *report, const ang_progress *progress, ang_error *err) {
+    const char *what = ang_dicom_probe(paths[0]) ? "DICOM" : "a folder";
+    if (!refuse_raw_options(ang_base_name(paths[0]), what, options, err)) return NULL;
+    return ang_dicom_load(paths, count, options, report, progress, err);
+}
+
+/* `path` is the input, of which `found`, no DICOM, is read. */
 static ang_volume *read_found(const char *path, const ang_found *found, const ang_load_options *options,
                               ang_load_report *report, const ang_progress *progress, ang_error *err) {
     const char *label = ang_base_name(found->path);
-    bool folder = found->kind == ANG_KIND_DICOM && !ang_dicom_probe(found->path);
     if (found->kind == ANG_KIND_NONE) {
         fail_unknown(path, label, err);
         return NULL;
-    }
-    if (found->kind == ANG_KIND_DICOM) {
-        if (!refuse_raw_options(label, folder ? "a folder" : "DICOM", options, err)) return NULL;
-        return ang_dicom_load(&path, 1, options, report, progress, err);
     }
     if (found->kind != ANG_KIND_RAW && !refuse_raw_options(label, single[found->kind].name, options, err)) return NULL;
     if (!refuse_other_series(label, options, err)) return NULL;
@@ -128,16 +130,6 @@ static ang_volume *read_found(const char *path, const ang_found *found, const an
     if (volume && found->others > 0)
         ang_notes_add_file(&report->assumptions, label, "is shown, the first of %zu volumes in the folder",
                            found->others + 1);
-    return volume;
-}
-
-static ang_volume *dispatch(const char *path, const ang_load_options *options, ang_load_report *report,
-                            const ang_progress *progress, ang_error *err) {
-    ang_found found;
-    ang_volume *volume = NULL;
-    if (ang_kind_find(path, options, progress, &found, err))
-        volume = read_found(path, &found, options, report, progress, err);
-    ang_found_clear(&found);
     return volume;
 }
 
@@ -221,23 +213,20 @@ bool ang_load_reads(const char *input, const char *path) {
     return reads;
 }
 
-/* Several paths: DICOM, or the first that is something else and can be told. */
-static ang_volume *dispatch_all(const char *const *paths, size_t count, const ang_load_options *options,
-                                ang_load_report *report, const ang_progress *progress, ang_error *err) {
-    bool dicom = false;
-    size_t other = count;
-    for (size_t i = 0; i < count && !dicom; i++) {
-        ang_found found;
-        if (!ang_kind_find(paths[i], options, progress, &found, err)) return NULL;
-        dicom = found.kind == ANG_KIND_DICOM;
-        if (other == count && found.kind != ANG_KIND_NONE) other = i;
-        ang_found_clear(&found);
-    }
-    if (dicom && refuse_raw_options(ang_base_name(paths[0]), "DICOM", options, err))
-        return ang_dicom_load(paths, count, options, report, progress, err);
-    if (dicom) return NULL;
-    ang_volume *volume = dispatch(paths[other < count ? other : 0], options, report, progress, err);
-    if (volume) ang_notes_add(&report->assumptions, "of %zu files, which are no DICOM, one is shown", count);
+/* Several paths are all read where one is DICOM, else one of them. */
+static ang_volume *dispatch(const char *const *paths, size_t count, const ang_load_options *options,
+                            ang_load_report *report, const ang_progress *progress, ang_error *err) {
+    ang_found found;
+    size_t index;
+    ang_volume *volume;
+    if (!ang_kind_choose(paths, count, options, progress, &index, &found, err)) return NULL;
+    if (found.kind == ANG_KIND_DICOM)
+        volume = read_dicom(paths, count, options, report, progress, err);
+    else
+        volume = read_found(paths[index], &found, options, report, progress, err);
+    if (volume && count > 1 && found.kind != ANG_KIND_DICOM)
+        ang_notes_add(&report->assumptions, "of %zu files, which are no DICOM, one is shown", count);
+    ang_found_clear(&found);
     return volume;
 }
 
@@ -261,8 +250,7 @@ ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_
     ang_unpacked unpacked;
     ang_volume *volume = NULL;
     if (ang_unpack(paths, count, &unpacked, &report->warnings, progress, err))
-        volume = count == 1 ? dispatch(unpacked.path[0], options, report, progress, err)
-                            : dispatch_all(unpacked.path, count, options, report, progress, err);
+        volume = dispatch(unpacked.path, count, options, report, progress, err);
     ang_unpacked_name(&unpacked, err);
     ang_unpacked_clear(&unpacked);
     if (!volume) return NULL;

@@ -40,18 +40,15 @@ static bool list_header(ang_load_report *report, const char *path, ang_header_pa
 static bool look(const char *const *paths, size_t count, const ang_load_options *options, ang_load_report *report,
                  const ang_survey_sink *sink, const ang_progress *progress, ang_error *err) {
     ang_found found;
-    for (size_t i = 0; i < count; i++) {
-        if (!ang_kind_find(paths[i], options, progress, &found, err)) return false;
-        bool dicom = found.kind == ANG_KIND_DICOM;
-        if (!dicom && found.kind != ANG_KIND_NONE) break;
-        ang_found_clear(&found);
-        if (dicom) return ang_dicom_survey(paths, count, options, report, sink, progress, err);
-    }
-    bool ok = found.kind == ANG_KIND_NRRD        ? list_header(report, found.path, ang_nrrd_parse, err)
+    size_t index;
+    if (!ang_kind_choose(paths, count, options, progress, &index, &found, err)) return false;
+    bool dicom = found.kind == ANG_KIND_DICOM;
+    bool ok = dicom                              ? ang_dicom_survey(paths, count, options, report, sink, progress, err)
+              : found.kind == ANG_KIND_NRRD      ? list_header(report, found.path, ang_nrrd_parse, err)
               : found.kind == ANG_KIND_METAIMAGE ? list_header(report, found.path, ang_metaimage_parse, err)
-                                                 : list_one(report, found.path ? found.path : paths[0], err);
+                                                 : list_one(report, found.path, err);
     ang_found_clear(&found);
-    if (ok) sink->listed(sink->context, report);
+    if (ok && !dicom) sink->listed(sink->context, report);
     return ok;
 }
 

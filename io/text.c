@@ -5,29 +5,34 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes of the printable character at `p`, NUL-terminated; 0 where there is none. */
-static int character_length(const uint8_t *p) {
+size_t ang_text_character(const char *text) {
+    const uint8_t *p = (const uint8_t *)text;
     if (p[0] < 0x80) return p[0] >= 0x20 && p[0] != 0x7F ? 1 : 0;
-    int length = p[0] >= 0xC2 && p[0] <= 0xDF   ? 2
-                 : p[0] >= 0xE0 && p[0] <= 0xEF ? 3
-                 : p[0] >= 0xF0 && p[0] <= 0xF4 ? 4
-                                                : 0;
+    size_t length = p[0] >= 0xC2 && p[0] <= 0xDF   ? 2
+                    : p[0] >= 0xE0 && p[0] <= 0xEF ? 3
+                    : p[0] >= 0xF0 && p[0] <= 0xF4 ? 4
+                                                   : 0;
     if (length == 0) return 0;
     /* Too long a form, a surrogate, beyond U+10FFFF, or a control character of U+0080 to U+009F. */
     if ((p[0] == 0xE0 && p[1] < 0xA0) || (p[0] == 0xED && p[1] > 0x9F)) return 0;
     if ((p[0] == 0xF0 && p[1] < 0x90) || (p[0] == 0xF4 && p[1] > 0x8F)) return 0;
     if (p[0] == 0xC2 && p[1] < 0xA0) return 0;
-    for (int i = 1; i < length; i++)
+    for (size_t i = 1; i < length; i++)
         if ((p[i] & 0xC0) != 0x80) return 0;
     return length;
 }
 
 void ang_text_clean(char *text) {
     while (*text) {
-        int length = character_length((const uint8_t *)text);
+        size_t length = ang_text_character(text);
         if (length == 0) *text = '?';
         text += length ? length : 1;
     }
+}
+
+size_t ang_text_cut(const char *text, size_t length) {
+    while (length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80) length--;
+    return length;
 }
 
 void ang_text_from_latin1(const char *text, char *out, size_t size) {

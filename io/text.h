@@ -8,6 +8,13 @@
  */
 void ang_text_clean(char *text);
 
+/* Bytes of the character of UTF-8 (RFC 3629) that NUL-terminated `text` begins with; 0 where that is none, or a control
+ * character. */
+size_t ang_text_character(const char *text);
+
+/* The greatest number of bytes up to `length` <= strlen(text) that cuts no character in two. */
+size_t ang_text_cut(const char *text, size_t length);
+
 /* Latin-1 (ISO 8859-1) becomes UTF-8 in `out`, cut to `size` bytes between characters. */
 void ang_text_from_latin1(const char *text, char *out, size_t size);
 

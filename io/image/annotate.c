@@ -3,6 +3,7 @@
 #include "core/base/memory.h"
 #include "io/font.h"
 #include "io/image/encode.h"
+#include "io/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -91,9 +92,7 @@ static void draw_line(sheet *sheet, const char *line, int small, int number) {
     memcpy(text, line, length + 1);
     int width, top, bottom, room = line_room(sheet, number);
     while (length > 0 && text_extent(sheet, text, small, &width, &top, &bottom) && width > room) {
-        /* Whole UTF-8 characters only. */
-        do length--;
-        while (length > 0 && ((unsigned char)line[length] & 0xC0) == 0x80);
+        length = ang_text_cut(line, length - 1);
         snprintf(text, sizeof text, "%.*s..", (int)length, line);
     }
     int baseline = sheet->height - sheet->margin - number * (small + small / 4);

@@ -3,6 +3,7 @@
 #include "core/base/memory.h"
 #include "io/font.h"
 #include "io/image/encode.h"
+#include "io/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -48,15 +49,14 @@ static void place(const grid *g, const ang_image *picture, size_t left, size_t t
 #ifdef ANG_WITH_OIIO
 static const float ink = 0.92F;
 
-/* As much of the name as goes, in whole characters of UTF-8. */
+/* As much of the name as goes, in whole characters. */
 static bool fit(const grid *g, const char *font, const char *name, char *text, size_t size) {
     int width, top, bottom;
     size_t length = strlen(name);
     snprintf(text, size, "%s", name);
     while (ang_oiio_text_size(text, g->letters, font, &width, &top, &bottom)) {
         if (width <= g->width || length == 0) return true;
-        do length--;
-        while (length > 0 && ((unsigned char)name[length] & 0xC0) == 0x80);
+        length = ang_text_cut(name, length - 1);
         snprintf(text, size, "%.*s..", (int)length, name);
     }
     return false;

@@ -1,6 +1,7 @@
 #include "io/preset/preset_own.h"
 
 #include "io/replace.h"
+#include "io/text.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -22,19 +23,6 @@ const char *ang_preset_own_folder(void) {
     return folder[0] ? folder : NULL;
 }
 
-/* The bytes of the UTF-8 character at `text`; 0 where there is none. */
-static size_t character(const char *text) {
-    const unsigned char *c = (const unsigned char *)text;
-    if (c[0] < 0x80) return 1;
-    size_t size = c[0] >= 0xc2 && c[0] < 0xe0   ? 2
-                  : c[0] >= 0xe0 && c[0] < 0xf0 ? 3
-                  : c[0] >= 0xf0 && c[0] < 0xf5 ? 4
-                                                : 0;
-    for (size_t i = 1; i < size; i++)
-        if ((c[i] & 0xc0) != 0x80) return 0;
-    return size;
-}
-
 static bool edge_sign(char c) { return c == ' ' || c == '.'; }
 
 bool ang_preset_name_check(const char *name, ang_error *err) {
@@ -44,10 +32,10 @@ bool ang_preset_name_check(const char *name, ang_error *err) {
         return ang_fail(err, ANG_USAGE, "The name is too long: %zu bytes of at most %d.", length,
                         ANG_PRESET_NAME_LENGTH);
     for (size_t i = 0, step; i < length; i += step) {
-        step = character(name + i);
-        if (step == 0) return ang_fail(err, ANG_USAGE, "The name is not text in UTF-8.");
         if ((unsigned char)name[i] < ' ' || name[i] == 127)
             return ang_fail(err, ANG_USAGE, "The name holds a control character.");
+        step = ang_text_character(name + i);
+        if (step == 0) return ang_fail(err, ANG_USAGE, "The name is not text in UTF-8.");
         if (name[i] == '/') return ang_fail(err, ANG_USAGE, "A name must not hold a slash: it becomes a file's.");
     }
     if (edge_sign(name[0]) || edge_sign(name[length - 1]))

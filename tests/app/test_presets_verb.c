@@ -56,6 +56,27 @@ static void imported_presets_are_found(void **state) {
     expect(7, "presets import " FOLDER "/presets.xml CT-B -o " FOLDER "/no/x.json 2>&1");
 }
 
+static void names_are_cut_between_characters_and_kept_apart(void **state) {
+    (void)state;
+    char text[1024], name[64 + 8], path[1024];
+    /* 62 bytes and a character of two, which does not fit. */
+    memset(name, 'x', 62);
+    strcpy(name + 62, "\xC3\xB6");
+    snprintf(text, sizeof text,
+             "<MRML><VolumeProperty name='%s' scalarOpacity='4 100 0 300 1' colorTransfer='4 100 1 1 1'/></MRML>",
+             name);
+    write_file(FOLDER "/long.xml", text);
+    expect(0, "presets import " FOLDER "/long.xml -q 2>&1");
+    snprintf(path, sizeof path, OWN "/%.62s.json", name);
+    assert_true(exists(path));
+    write_file(FOLDER "/twice.xml",
+               "<MRML><VolumeProperty name='a/b' scalarOpacity='4 1 0 3 1' colorTransfer='4 1 1 1 1'/>"
+               "<VolumeProperty name='a-b' scalarOpacity='4 1 0 3 1' colorTransfer='4 1 1 1 1'/></MRML>");
+    expect(2, "presets import " FOLDER "/twice.xml 2>&1");
+    assert_non_null(strstr(output, "twice.xml: two of its presets would be called \"a-b\""));
+    assert_false(exists(OWN "/a-b.json"));
+}
+
 static void exported_presets_come_back(void **state) {
     (void)state;
     static const char *const endings[] = {"vp", "vp.json", "xml"};
@@ -148,6 +169,7 @@ int main(void) {
     setenv("XDG_CONFIG_HOME", FOLDER, 1);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(imported_presets_are_found),
+        cmocka_unit_test(names_are_cut_between_characters_and_kept_apart),
         cmocka_unit_test(exported_presets_come_back),
         cmocka_unit_test(colours_are_for_terminals),
         cmocka_unit_test(the_sheet_shows_every_preset),

@@ -64,12 +64,17 @@ static void looked_at(void *context, size_t index, const ang_raw_slice *middle, 
     memcpy(seen->values[index], middle->values, bytes);
 }
 
-static bool survey(const char *path, seen *seen, const ang_progress *progress, ang_error *err) {
+static bool survey_all(const char *const *paths, size_t count, seen *seen, const ang_progress *progress,
+                       ang_error *err) {
     ang_load_report report = {0};
     ang_survey_sink sink = {listed, looked_at, seen};
-    bool done = ang_survey(&path, 1, NULL, &report, &sink, progress, err);
+    bool done = ang_survey(paths, count, NULL, &report, &sink, progress, err);
     ang_load_report_clear(&report);
     return done;
+}
+
+static bool survey(const char *path, seen *seen, const ang_progress *progress, ang_error *err) {
+    return survey_all(&path, 1, seen, progress, err);
 }
 
 static void clear(seen *seen) {
@@ -101,6 +106,29 @@ static void a_survey_shows_the_middle_of_each_series(void **state) {
         ang_volume_free(volume);
         ang_load_report_clear(&report);
     }
+    clear(&seen);
+}
+
+/* Of several inputs DICOM is listed wherever it stands, as it is loaded. */
+static void what_is_listed_is_what_is_loaded(void **state) {
+    (void)state;
+    static const char header[] = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n\nx";
+    static const char *const paths[] = {ANG_TEST_TMP "/survey-one.nrrd", FOLDER};
+    FILE *file = fopen(paths[0], "wb");
+    assert_non_null(file);
+    fwrite(header, 1, sizeof header - 1, file);
+    fclose(file);
+    seen seen = {0};
+    ang_error err = {0};
+    ang_load_report report = {0};
+    assert_true(survey_all(paths, 2, &seen, NULL, &err));
+    ang_volume *volume = ang_load_all(paths, 2, NULL, &report, NULL, &err);
+    assert_non_null(volume);
+    assert_string_equal(report.format, "DICOM");
+    assert_int_equal(seen.listed, report.series_count);
+    assert_int_equal(seen.looked_at, 2);
+    ang_volume_free(volume);
+    ang_load_report_clear(&report);
     clear(&seen);
 }
 
@@ -193,6 +221,7 @@ static void slices_are_handed_out_as_they_are_read(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_listed_is_what_is_loaded),
         cmocka_unit_test(a_survey_shows_the_middle_of_each_series),
         cmocka_unit_test(surveys_stop_and_fail_as_loading_does),
         cmocka_unit_test(several_paths_are_one_input),
