@@ -35,6 +35,25 @@ size_t ang_text_cut(const char *text, size_t length) {
     return length;
 }
 
+void ang_text_put_markup(FILE *out, const char *text) {
+    for (; *text; text++) switch (*text) {
+        case '<':
+            fputs("&lt;", out);
+            break;
+        case '>':
+            fputs("&gt;", out);
+            break;
+        case '&':
+            fputs("&amp;", out);
+            break;
+        case '"':
+            fputs("&quot;", out);
+            break;
+        default:
+            fputc(*text, out);
+        }
+}
+
 void ang_text_from_latin1(const char *text, char *out, size_t size) {
     size_t used = 0;
     for (const uint8_t *p = (const uint8_t *)text; *p; p++) {

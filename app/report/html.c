@@ -2,6 +2,7 @@
 #include "app/report/report.h"
 
 #include "io/replace.h"
+#include "io/text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -122,7 +123,7 @@ static void put_choices(FILE *out, const ang_report *report) {
 static void put_hero(FILE *out, const ang_report *report, bool pictures) {
     ang_image image = {0};
     fputs("<h1>How exact is this picture, and how long does it take?</h1>\n<p class=\"under\">Preset ", out);
-    ang_report_put_text(out, report->picture.preset->name);
+    ang_text_put_markup(out, report->picture.preset->name);
     fprintf(out, ", mode %s, %d x %d pixels, every method measured on this machine against an exact computation. ",
             ang_mode_name(report->picture.scene.mode), report->picture.scene.width, report->picture.scene.height);
     fputs("Not a medical device; not for diagnosis.</p>\n<div class=\"hero\">", out);
@@ -139,7 +140,7 @@ static void put_hero(FILE *out, const ang_report *report, bool pictures) {
     put_choices(out, report);
     for (size_t i = 0; i < report->notes.count; i++) {
         fputs("<p class=\"note\">", out);
-        ang_report_put_text(out, report->notes.text[i]);
+        ang_text_put_markup(out, report->notes.text[i]);
         fputs("</p>\n", out);
     }
     fputs("</div></div>\n", out);

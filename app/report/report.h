@@ -196,7 +196,6 @@ bool ang_report_put_heat_scale(FILE *out);
 extern const double ang_report_heat_least, ang_report_heat_most;
 
 /* tables.c: parts of the page. Numbers and text as HTML. */
-void ang_report_put_text(FILE *out, const char *text); /* escaped */
 void ang_report_put_settings_table(FILE *out, const ang_report *report);
 void ang_report_put_switches_table(FILE *out, const ang_report *report);
 void ang_report_put_orders_table(FILE *out, const ang_report *report);

@@ -2,29 +2,11 @@
 #include "app/report/report.h"
 
 #include "io/report.h"
+#include "io/text.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-void ang_report_put_text(FILE *out, const char *text) {
-    for (; *text; text++) switch (*text) {
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '"':
-            fputs("&quot;", out);
-            break;
-        default:
-            fputc(*text, out);
-        }
-}
 
 const char *ang_report_time_text(double milliseconds, char text[32]) {
     if (!isfinite(milliseconds))
@@ -109,7 +91,7 @@ void ang_report_put_settings_table(FILE *out, const ang_report *report) {
 
 static void put_switch(FILE *out, const ang_report_run *run, const ang_report_run *base) {
     fprintf(out, "<tr class=\"%s\"><th>%s</th><td class=\"words\">", run == base ? "first" : "", run->method->name);
-    ang_report_put_text(out, run == base ? "nothing" : run->switched);
+    ang_text_put_markup(out, run == base ? "nothing" : run->switched);
     fputs("</td>", out);
     put_ms(out, run);
     double ratio = base ? run->median_ms / base->median_ms : (double)NAN;
@@ -182,7 +164,7 @@ static void put_left_out(FILE *out, const ang_report_run *run) {
     char step[16];
     fprintf(out, "<li>%s, step %s%s%s%s: ", run->method->name, ang_report_step_text(run->options.step_voxels, step),
             run->switched[0] ? ", " : "", run->switched, run->subset ? ", subset" : "");
-    ang_report_put_text(out, run->drawn ? "not timed, the time limit leaves no time for it" : run->left_out);
+    ang_text_put_markup(out, run->drawn ? "not timed, the time limit leaves no time for it" : run->left_out);
     fputs("</li>\n", out);
 }
 
@@ -199,7 +181,7 @@ void ang_report_put_left_out(FILE *out, const ang_report *report) {
 
 static void fact(FILE *out, const char *name, const char *value) {
     fprintf(out, "<tr><th>%s</th><td class=\"words\">", name);
-    ang_report_put_text(out, value);
+    ang_text_put_markup(out, value);
     fputs("</td></tr>\n", out);
 }
 

@@ -94,10 +94,8 @@ void ang_elements_file(ang_dicom_elements *to, const char *sop_class, const char
     free(meta.data);
 }
 
-bool ang_dicom_random_uid(char uid[65]) {
-    unsigned char bytes[16];
-    if (getrandom(bytes, sizeof bytes, 0) != (ssize_t)sizeof bytes) return false;
-    bytes[6] = (unsigned char)((bytes[6] & 0x0F) | 0x40); /* version 4 (RFC 9562) */
+void ang_dicom_uuid_uid(unsigned char bytes[16], int version, char uid[65]) {
+    bytes[6] = (unsigned char)((bytes[6] & 0x0F) | version << 4);
     bytes[8] = (unsigned char)((bytes[8] & 0x3F) | 0x80);
     char digits[40];
     int count = 0;
@@ -115,5 +113,11 @@ bool ang_dicom_random_uid(char uid[65]) {
     memcpy(uid, "2.25.", 5);
     for (int i = 0; i < count; i++) uid[5 + i] = digits[count - 1 - i];
     uid[5 + count] = '\0';
+}
+
+bool ang_dicom_random_uid(char uid[65]) {
+    unsigned char bytes[16];
+    if (getrandom(bytes, sizeof bytes, 0) != (ssize_t)sizeof bytes) return false;
+    ang_dicom_uuid_uid(bytes, 4, uid);
     return true;
 }

@@ -26,7 +26,10 @@ void ang_elements_sequence(ang_dicom_elements *to, uint32_t tag, const ang_dicom
 void ang_elements_file(ang_dicom_elements *to, const char *sop_class, const char *sop_instance,
                        const ang_dicom_elements *data_set);
 
-/* "2.25." and a random UUID in decimal (PS3.5 B.2). False where the system has no random numbers. */
+/* "2.25." and a UUID in decimal (PS3.5 B.2) of these 16 bytes, big end first, once the bits of its `version` and its
+ * variant are set (RFC 9562): 4 is random, 8 of our own making. */
+void ang_dicom_uuid_uid(unsigned char bytes[16], int version, char uid[65]);
+/* One of random bytes. False where the system has no random numbers. */
 bool ang_dicom_random_uid(char uid[65]);
 
 #endif

@@ -1,6 +1,7 @@
 #include "io/dicom/write.h"
 
 #include "core/base/memory.h"
+#include "io/dicom/elements.h"
 #include "io/dicom/encode.h"
 #include "io/replace.h"
 
@@ -36,26 +37,15 @@ static uint64_t fold(uint64_t hash, const void *data, size_t size) {
     return hash;
 }
 
-/* "2.25." and a UUID in decimal (DICOM PS3.5 B.2); version 8, that is, of our own making (RFC 9562). */
 static uid make_uid(uint64_t key, uint64_t kind, uint64_t index) {
     uint64_t high = mix(mix(mix(key) ^ kind) ^ index), low = mix(high ^ key ^ ~kind);
-    high = (high & ~0xF000ull) | 0x8000u;
-    low = (low & ~(3ull << 62)) | 2ull << 62;
-    uint32_t words[4] = {(uint32_t)(high >> 32), (uint32_t)high, (uint32_t)(low >> 32), (uint32_t)low};
-    char digits[40];
-    int count = 0;
-    while (words[0] | words[1] | words[2] | words[3]) {
-        uint64_t rest = 0;
-        for (int i = 0; i < 4; i++) {
-            rest = rest << 32 | words[i];
-            words[i] = (uint32_t)(rest / 10);
-            rest %= 10;
-        }
-        digits[count++] = (char)('0' + rest);
+    unsigned char bytes[16];
+    uid made;
+    for (int i = 0; i < 8; i++) {
+        bytes[i] = (unsigned char)(high >> (56 - 8 * i));
+        bytes[8 + i] = (unsigned char)(low >> (56 - 8 * i));
     }
-    uid made = {"2.25."};
-    size_t length = strlen(made.text);
-    while (count > 0) made.text[length++] = digits[--count];
+    ang_dicom_uuid_uid(bytes, 8, made.text);
     return made;
 }
 

@@ -60,3 +60,12 @@ double ang_header_unit_mm(const char *unit) {
         if (ang_header_is(unit, units[i].name)) return units[i].mm;
     return NAN;
 }
+
+const char *ang_header_unit_time(const char *unit) {
+    static const char *const units[][2] = {{"s", "s"},     {"sec", "s"},   {"second", "s"},   {"seconds", "s"},
+                                           {"min", "min"}, {"ms", "ms"},   {"msec", "ms"},    {"milliseconds", "ms"},
+                                           {"us", "us"},   {"usec", "us"}, {"minute", "min"}, {"minutes", "min"}};
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (ang_header_is(unit, units[i][0])) return units[i][1];
+    return "";
+}

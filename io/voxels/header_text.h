@@ -21,5 +21,7 @@ bool ang_header_word(const char **text, char *out, size_t size);
 bool ang_header_is(const char *a, const char *b);
 /* A unit of length in mm: "mm", "cm", "m", "um" and spelt out; NaN for others. */
 double ang_header_unit_mm(const char *unit);
+/* A unit of time, "s", "min", "ms", "us", however it is spelt; "" for others, which are any text and may identify. */
+const char *ang_header_unit_time(const char *unit);
 
 #endif

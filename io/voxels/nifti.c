@@ -170,17 +170,8 @@ static bool name_phases(const nifti_image *image, ang_series_info *info, ang_err
                        : image->time_units == NIFTI_UNITS_MSEC ? "ms"
                        : image->time_units == NIFTI_UNITS_USEC ? "us"
                                                                : NULL;
-    if (!unit || info->phases < 2 || !(image->dt > 0) || image->ndim > 4) return true;
-    info->phase_text = ang_alloc((size_t)info->phases, sizeof *info->phase_text, "list of phases", err);
-    if (!info->phase_text) return false;
-    for (int i = 0; i < info->phases; i++) {
-        double at = (double)image->toffset + i * (double)image->dt;
-        if (asprintf(&info->phase_text[i], "time %.6g %s", at, unit) < 0) {
-            info->phase_text[i] = NULL;
-            return ang_fail(err, ANG_LIMIT, "no memory for the list of phases");
-        }
-    }
-    return true;
+    bool timed = unit && image->dt > 0 && image->ndim <= 4;
+    return !timed || ang_samples_name_phases(info, (double)image->toffset, (double)image->dt, unit, err);
 }
 
 static ang_volume *load_image(const nifti_image *image, const char *voxels, const char *label,

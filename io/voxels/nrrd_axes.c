@@ -229,7 +229,7 @@ static bool take_other(const char *label, const ang_nrrd_axis *axis, size_t run,
     header->phase_run = run;
     header->phase_step = axis->spacing;
     header->phase_first = isfinite(axis->least) ? axis->least : 0;
-    snprintf(header->phase_unit, sizeof header->phase_unit, "%.15s", axis->unit);
+    snprintf(header->phase_unit, sizeof header->phase_unit, "%s", ang_header_unit_time(axis->unit));
     return true;
 }
 

@@ -288,3 +288,16 @@ bool ang_samples_list(const ang_volume *volume, int phases, const char *modality
         volume->dims[2] > 1 ? info->spacing_mm[2] : 0;
     return true;
 }
+
+bool ang_samples_name_phases(ang_series_info *info, double first, double step, const char *unit, ang_error *err) {
+    if (info->phases < 2 || info->phases > most_phases || !isfinite(first) || !isfinite(step)) return true;
+    info->phase_text = ang_alloc((size_t)info->phases, sizeof *info->phase_text, "list of phases", err);
+    if (!info->phase_text) return false;
+    for (int i = 0; i < info->phases; i++) {
+        if (asprintf(&info->phase_text[i], "time %.6g%s%s", first + i * step, unit[0] ? " " : "", unit) < 0) {
+            info->phase_text[i] = NULL;
+            return ang_fail(err, ANG_LIMIT, "no memory for the list of phases");
+        }
+    }
+    return true;
+}

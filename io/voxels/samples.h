@@ -32,6 +32,9 @@ ang_volume *ang_samples_read(ang_sample_source *source, int threads, ang_load_re
 /* The report's list of series for a file that holds one volume, or one in each of `phases` phases. */
 bool ang_samples_list(const ang_volume *volume, int phases, const char *modality, const char *description,
                       ang_load_report *report, ang_error *err);
+/* Names the phases of a series of several by their times, `first` + i * `step` in `unit` ("": none), where these are
+ * finite. False with ANG_LIMIT. */
+bool ang_samples_name_phases(ang_series_info *info, double first, double step, const char *unit, ang_error *err);
 /* Which of `phases` the options ask for, from 0. False with ANG_INPUT where there is none such. */
 bool ang_samples_phase(const char *label, int phases, const ang_load_options *options, int *phase, ang_error *err);
 

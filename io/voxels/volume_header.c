@@ -136,31 +136,13 @@ static bool find_parts(const ang_volume_header *header, const char *path, size_t
     return true;
 }
 
-/* Texts that say what the phases are, where the header does. */
-static bool name_phases(const ang_volume_header *header, ang_series_info *info, ang_error *err) {
-    if (header->phases < 2 || header->phases > ANG_HEADER_FILES || !isfinite(header->phase_step) ||
-        !isfinite(header->phase_first))
-        return true;
-    info->phase_text = ang_alloc((size_t)header->phases, sizeof *info->phase_text, "list of phases", err);
-    if (!info->phase_text) return false;
-    for (int i = 0; i < header->phases; i++) {
-        double at = header->phase_first + i * header->phase_step;
-        const char *unit = header->phase_unit;
-        if (asprintf(&info->phase_text[i], "time %.6g%s%s", at, unit[0] ? " " : "", unit) < 0) {
-            info->phase_text[i] = NULL;
-            return ang_fail(err, ANG_LIMIT, "no memory for the list of phases");
-        }
-    }
-    return true;
-}
-
 bool ang_volume_header_list(const ang_volume_header *header, const char *path, ang_load_report *report,
                             ang_error *err) {
     /* The report lists volumes, and needs no voxels for it. */
     ang_volume without = {.affine = header->affine};
     memcpy(without.dims, header->dims, sizeof without.dims);
     return ang_samples_list(&without, header->phases, "?", ang_base_name(path), report, err) &&
-           name_phases(header, report->series, err);
+           ang_samples_name_phases(report->series, header->phase_first, header->phase_step, header->phase_unit, err);
 }
 
 static ang_volume *load_voxels(const ang_volume_header *header, const char *path, const ang_load_options *options,

@@ -14,7 +14,7 @@ typedef struct ang_volume_header {
     ang_mat4 affine;                /* voxel index to LPS mm */
     int phases;                     /* >= 1 */
     size_t phase_run;               /* as in ang_sample_source */
-    double phase_first, phase_step; /* what each phase is, in `phase_unit`; NaN: not known */
+    double phase_first, phase_step; /* what each phase is, in `phase_unit` ("": not known); NaN: not known */
     char phase_unit[16];
     ang_sample type;
     bool big_endian;

@@ -158,8 +158,22 @@ static void phases_on_any_axis(void **state) {
         write_parts("4d.nrrd", header, words, sizeof words);
         for (int phase = 0; phase <= 4; phase++) expect_volume("4d.nrrd", phase, lps);
     }
+    /* Units of time say what phases are; any other text is not handed on: it may name somebody. */
+    static const char *const units[][2] = {{"\"sec\"", "time 3 s"}, {"\"DOE MARY\"", "time 3"}};
     ang_load_report report;
     ang_error err = {0};
+    for (int i = 0; i < 2; i++) {
+        char header[1024];
+        snprintf(header, sizeof header,
+                 "NRRD0005\ntype: short\ndimension: 4\n%sspacings: nan nan nan 1.5\nunits: \"\" \"\" \"\" %s\n"
+                 "encoding: raw\nendian: little\n\n",
+                 forms[0], units[i][0]);
+        write_parts("timed.nrrd", header, little, sizeof little);
+        ang_volume *timed = load_phase(FOLDER "/timed.nrrd", 3, &report);
+        assert_string_equal(ang_series_phase_text(&report.series[0], 3), units[i][1]);
+        ang_volume_free(timed);
+        ang_load_report_clear(&report);
+    }
     ang_volume *v = load_phase(FOLDER "/4d.nrrd", 3, &report);
     assert_int_equal(report.series[0].phases, 4);
     assert_int_equal(report.phase, 3);

@@ -2,6 +2,7 @@
  * processing instructions, the five named entities and numbered ones. Document types are refused. */
 #include "io/json.h"
 #include "io/preset/slicer/forms.h"
+#include "io/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -189,24 +190,6 @@ bool ang_property_parse_xml(const char *file, const char *text, ang_property_lis
     return read;
 }
 
-static void write_text(const char *text, FILE *out) {
-    for (; *text; text++) {
-        switch (*text) {
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '"':
-            fputs("&quot;", out);
-            break;
-        default:
-            fputc(*text, out);
-        }
-    }
-}
-
 static void write_function(const char *name, const ang_property_function *function, FILE *out) {
     fprintf(out, " %s=\"", name);
     ang_property_function_write(function, out);
@@ -221,7 +204,7 @@ void ang_property_write_xml(const ang_property_list *list, FILE *out) {
         static const char *const names[4] = {"ambient", "diffuse", "specular", "specularPower"};
         char number[40];
         fprintf(out, "  <VolumeProperty id=\"vtkMRMLVolumePropertyNode%zu\" name=\"", i + 1);
-        write_text(p->name, out);
+        ang_text_put_markup(out, p->name);
         fprintf(out,
                 "\" hideFromEditors=\"false\" selectable=\"true\" selected=\"false\" interpolation=\"%d\" shade=\"%d\"",
                 p->nearest ? 0 : 1, p->shade ? 1 : 0);
