@@ -230,6 +230,18 @@ bool ang_json_number(const ang_json *json, const cJSON *item, const char *path, 
     return ang_json_fail(json, path, err, "%s is %g; it must lie in %g..%g", path, v, low, high);
 }
 
+bool ang_json_numbers(const ang_json *json, const cJSON *list, const char *path, int count, double low, double high,
+                      double *values, ang_error *err) {
+    if (!cJSON_IsArray(list) || cJSON_GetArraySize(list) != count)
+        return ang_json_fail(json, path, err, "%s must be %d numbers in brackets", path, count);
+    for (int i = 0; i < count; i++) {
+        char place[128];
+        snprintf(place, sizeof place, "%.112s[%d]", path, i);
+        if (!ang_json_number(json, cJSON_GetArrayItem(list, i), place, low, high, &values[i], err)) return false;
+    }
+    return true;
+}
+
 /* Levenshtein's distance for words of up to 63 characters. */
 static size_t edit_distance(const char *a, const char *b) {
     enum { MOST = 64 };

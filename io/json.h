@@ -38,6 +38,10 @@ bool ang_json_check_fields(const ang_json *json, const cJSON *object, const char
 bool ang_json_number(const ang_json *json, const cJSON *item, const char *path, double low, double high, double *value,
                      ang_error *err);
 
+/* Reads `count` numbers, each within [low, high], of a list that must hold as many. */
+bool ang_json_numbers(const ang_json *json, const cJSON *list, const char *path, int count, double low, double high,
+                      double *values, ang_error *err);
+
 /* Adds a number under `name`, or null where it is not finite, which JSON cannot say. */
 void ang_json_add_number(cJSON *object, const char *name, double value);
 /* The shortest decimal that reads back as the same double; "null" where it is not finite. Returns `text`. */

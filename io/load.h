@@ -40,7 +40,7 @@ typedef struct ang_series_info {
     double spacing_mm[3]; /* along rows, columns and the normal: the mean distance of its slices (dicom-rules 4) */
     int phases;           /* volumes of one place, one of which is loaded; 1 where the series is one volume */
     char **phase_text;    /* what each is, "temporal position 2", "trigger time 350 ms": `phases` texts that identify
-                             nobody;    NULL: numbers are all that is known */
+                             nobody; NULL: numbers are all that is known */
     bool loadable;
     char *remark; /* why it is not loadable, or what it is: "localizer", "derived summary (SEC...)" */
 } ang_series_info;
@@ -104,9 +104,8 @@ ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load
 ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_options *options,
                          ang_load_report *report, const ang_progress *progress, ang_error *err);
 
-/* Whether loading `input` reads the file `path`: it is the input, its sidecar, a file of its
- * voxels or what is read in the folder.
- * To be asked before `path` is overwritten. */
+/* Whether loading `input` reads the file `path`: it is the input, its sidecar, a file of its voxels or what is read in
+ * the folder. To be asked before `path` is overwritten. Thread safe. */
 bool ang_load_reads(const char *input, const char *path);
 
 #endif

@@ -34,23 +34,9 @@ cJSON *ang_measures_json(const ang_measures *measures) {
     return object;
 }
 
-/* A list of so many numbers at `path`. */
-static bool read_numbers(const ang_json *json, const cJSON *list, const char *path, int count, double *values,
-                         ang_error *err) {
-    if (!cJSON_IsArray(list) || cJSON_GetArraySize(list) != count)
-        return ang_json_fail(json, path, err, "%s must be %d numbers in brackets", path, count);
-    for (int i = 0; i < count; i++) {
-        char place[96];
-        snprintf(place, sizeof place, "%.80s[%d]", path, i);
-        if (!ang_json_number(json, cJSON_GetArrayItem(list, i), place, -most_mm, most_mm, &values[i], err))
-            return false;
-    }
-    return true;
-}
-
 static bool read_place(const ang_json *json, const cJSON *list, const char *path, ang_vec3 *at, ang_error *err) {
     double values[3] = {0};
-    if (!read_numbers(json, list, path, 3, values, err)) return false;
+    if (!ang_json_numbers(json, list, path, 3, -most_mm, most_mm, values, err)) return false;
     *at = (ang_vec3){values[0], values[1], values[2]};
     return true;
 }
@@ -96,7 +82,7 @@ static bool read_measurement(const ang_json *json, const cJSON *item, const char
     const cJSON *label = cJSON_GetObjectItemCaseSensitive(item, "label_mm");
     m->label_placed = label != NULL;
     snprintf(where, sizeof where, "%.40s.label_mm", path);
-    return !label || read_numbers(json, label, where, 2, m->label_mm, err);
+    return !label || ang_json_numbers(json, label, where, 2, -most_mm, most_mm, m->label_mm, err);
 }
 
 bool ang_measures_read(const ang_json *json, ang_measures *measures, ang_error *err) {

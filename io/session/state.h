@@ -66,12 +66,12 @@ const char *ang_state_option_value(const ang_state *state, const char *name);
 int ang_state_series(const ang_state *state);
 int ang_state_phase(const ang_state *state);
 
-/* The state as a JSON object: {"angioscope_state": 1, "program", "input": {"path", "name", ...}, "preset": {...}, as in
- * preset.h, "render": {OPTION: VALUE, ...}, "window": {"centre", "width"}, "crosshair_mm", "planes_turn", "axial":
- * {"zoom", "pan_mm"},
- * ..., "slab": {"mm", "mode"}, "measures": {...}, as in measures.h, ...}. Every number exact. What is open is left out.
- * `file` is where it will be written: a path of the data below its folder becomes relative to that, any other absolute;
- * NULL: no path. With `window` false without what is of the window. NULL with ANG_LIMIT. Free with cJSON_Delete. */
+/* The state as a JSON object: {"angioscope_state": 1, "program", "input": {"path", "name", ...}, "preset": {...}, as
+ * in preset.h, "render": {OPTION: VALUE, ...}, "window": {"centre", "width"}, "crosshair_mm", "planes_turn", "axial":
+ * {"zoom", "pan_mm"}, ..., "slab": {"mm", "mode"}, "measures": {...}, as in measures.h, ...}. Every number exact.
+ * What is open is left out. `file` is where it will be written: a path of the data below its folder becomes relative
+ * to that, any other absolute; NULL: no path. With `window` false without what is of the window. NULL with ANG_LIMIT.
+ * Free with cJSON_Delete. */
 cJSON *ang_state_json(const ang_state *state, const char *program_version, const char *file, bool window,
                       ang_error *err);
 /* The picture's part of that, without the path and what is of the window, as text in one line: to go into a picture.

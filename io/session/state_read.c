@@ -80,17 +80,9 @@ static bool read_number(reader *r, const cJSON *object, const char *path, const 
 
 static bool read_numbers(reader *r, const cJSON *object, const char *path, const char *name, int count, double limit,
                          double *values) {
-    char whole[96], place[112];
+    char whole[96];
     const cJSON *list = field(object, path, name, whole);
-    if (!list) return true;
-    if (!cJSON_IsArray(list) || cJSON_GetArraySize(list) != count)
-        return ang_json_fail(&r->json, whole, r->err, "%s must be %d numbers in brackets", whole, count);
-    for (int i = 0; i < count; i++) {
-        snprintf(place, sizeof place, "%s[%d]", whole, i);
-        if (!ang_json_number(&r->json, cJSON_GetArrayItem(list, i), place, -limit, limit, &values[i], r->err))
-            return false;
-    }
-    return true;
+    return !list || ang_json_numbers(&r->json, list, whole, count, -limit, limit, values, r->err);
 }
 
 static bool read_flag(reader *r, const char *name, bool *value) {

@@ -71,24 +71,13 @@ char *ang_raw_sidecar(const char *path) {
     return NULL;
 }
 
-/* Three numbers of an array, each within [low, high]. */
-static bool read_numbers(const ang_json *json, const cJSON *array, const char *name, double low, double high,
-                         double out[3], ang_error *err) {
-    for (int i = 0; i < 3; i++) {
-        char path[32];
-        snprintf(path, sizeof path, "%s[%d]", name, i);
-        if (!ang_json_number(json, cJSON_GetArrayItem(array, i), path, low, high, &out[i], err)) return false;
-    }
-    return true;
-}
-
 static bool is_triple(const cJSON *item) { return cJSON_IsArray(item) && cJSON_GetArraySize(item) == 3; }
 
 static bool use_dims(const ang_json *json, const cJSON *dims, raw_form *form, ang_error *err) {
     double v[3];
     bool ok = cJSON_IsString(dims) && parse_dims(dims->valuestring, form->dims);
     if (!ok && is_triple(dims)) {
-        if (!read_numbers(json, dims, "dims", 1, most_voxels, v, err)) return false;
+        if (!ang_json_numbers(json, dims, "dims", 3, 1, most_voxels, v, err)) return false;
         for (int i = 0; i < 3; i++) form->dims[i] = (int)v[i];
         ok = v[0] == floor(v[0]) && v[1] == floor(v[1]) && v[2] == floor(v[2]);
     }
@@ -106,7 +95,7 @@ static bool use_sidecar(const ang_json *json, raw_form *form, ang_error *err) {
         return ang_json_fail(json, "type", err, "type must be \"u8\", \"i8\", \"u16\", \"i16\" or \"f32\"");
     if (!spacing) return true;
     form->has_spacing = true;
-    if (is_triple(spacing)) return read_numbers(json, spacing, "spacing", 1e-6, 1e6, form->spacing, err);
+    if (is_triple(spacing)) return ang_json_numbers(json, spacing, "spacing", 3, 1e-6, 1e6, form->spacing, err);
     return (cJSON_IsString(spacing) && parse_spacing(spacing->valuestring, form->spacing)) ||
            ang_json_fail(json, "spacing", err, "spacing must be [x, y, z] in mm");
 }

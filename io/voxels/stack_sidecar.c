@@ -9,19 +9,6 @@ ang_stack_form ang_stack_form_default(void) {
     return (ang_stack_form){.spacing = {1, 1, 1}, .direction = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .slope = 1};
 }
 
-/* Three numbers of an array at `path`, each within [low, high]. */
-static bool read_three(const ang_json *json, const cJSON *array, const char *path, double low, double high,
-                       double out[3], ang_error *err) {
-    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != 3)
-        return ang_json_fail(json, path, err, "%s must be three numbers, [x, y, z]", path);
-    for (int i = 0; i < 3; i++) {
-        char item[64];
-        snprintf(item, sizeof item, "%s[%d]", path, i);
-        if (!ang_json_number(json, cJSON_GetArrayItem(array, i), item, low, high, &out[i], err)) return false;
-    }
-    return true;
-}
-
 static bool read_directions(const ang_json *json, const cJSON *array, double out[9], ang_error *err) {
     if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != 3)
         return ang_json_fail(
@@ -31,7 +18,7 @@ static bool read_directions(const ang_json *json, const cJSON *array, double out
         char path[32];
         double *v = out + 3 * i;
         snprintf(path, sizeof path, "directions[%d]", i);
-        if (!read_three(json, cJSON_GetArrayItem(array, i), path, -1, 1, v, err)) return false;
+        if (!ang_json_numbers(json, cJSON_GetArrayItem(array, i), path, 3, -1, 1, v, err)) return false;
         if (fabs(sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) - 1) > 1e-3)
             return ang_json_fail(json, path, err, "%s is no unit vector", path);
     }
@@ -52,8 +39,8 @@ static bool use(const ang_json *json, ang_stack_form *form, ang_error *err) {
     form->is_signed = cJSON_IsTrue(is_signed);
     if (is_signed && !cJSON_IsBool(is_signed))
         return ang_json_fail(json, "signed", err, "signed must be true or false");
-    return (!spacing || read_three(json, spacing, "spacing", 1e-6, 1e6, form->spacing, err)) &&
-           (!origin || read_three(json, origin, "origin", -1e6, 1e6, form->origin, err)) &&
+    return (!spacing || ang_json_numbers(json, spacing, "spacing", 3, 1e-6, 1e6, form->spacing, err)) &&
+           (!origin || ang_json_numbers(json, origin, "origin", 3, -1e6, 1e6, form->origin, err)) &&
            (!directions || read_directions(json, directions, form->direction, err)) &&
            ang_json_number(json, cJSON_GetObjectItemCaseSensitive(json->root, "slope"), "slope", -1e6, 1e6,
                            &form->slope, err) &&

@@ -172,7 +172,7 @@ static void refused(void **state) {
     must_fail(FOLDER "/bad", ANG_INPUT, "a2.png");
     static const struct {
         const char *text, *needle;
-    } cases[] = {{"{\"spacing\": [1, 1]}", "stack.json:1: spacing must be three numbers"},
+    } cases[] = {{"{\"spacing\": [1, 1]}", "stack.json:1: spacing must be 3 numbers in brackets"},
                  {"{\"spacing\": [1, 1,\n0]}", "spacing[2] is 0"},
                  {"{\"slope\": 0}", "slope must not be 0"},
                  {"{\"directions\": [[1, 0, 0], [0, 1, 0], [0, 0, 0.5]]}", "directions[2] is no unit vector"},
