@@ -7,6 +7,10 @@
 /* The file's name without its folders: what messages call it. */
 const char *ang_base_name(const char *path);
 
+/* Which of the phases of `what` ("series 2", a file) the options ask for, from 1. False with ANG_INPUT where it has no
+ * such. */
+bool ang_load_phase(const char *what, int phases, const ang_load_options *options, int *phase, ang_error *err);
+
 /* A report of which nothing is known yet. */
 void ang_load_report_start(ang_load_report *report);
 

@@ -44,12 +44,19 @@ const char *ang_series_phase_text(const ang_series_info *info, int phase) {
     return known ? info->phase_text[phase - 1] : "";
 }
 
-bool ang_series_take_phase(const ang_series_info *info, const ang_load_options *options, int *phase, ang_error *err) {
+bool ang_load_phase(const char *what, int phases, const ang_load_options *options, int *phase, ang_error *err) {
     *phase = options->phase > 0 ? options->phase : 1;
-    if (*phase <= info->phases || *phase == 1) return true;
-    if (info->phases > 1)
-        return ang_fail(err, ANG_INPUT, "--phase %d: series %d has phases 1 to %d", *phase, info->number, info->phases);
-    return ang_fail(err, ANG_INPUT, "--phase %d: series %d is one volume, phase 1", *phase, info->number);
+    if (*phase <= phases || *phase == 1) return true;
+    if (phases > 1) return ang_fail(err, ANG_INPUT, "--phase %d: %s has phases 1 to %d", *phase, what, phases);
+    return ang_fail(err, ANG_INPUT, "--phase %d: %s is one volume, phase 1", *phase, what);
+}
+
+/* The phase of the series that was chosen, for formats whose readers know of none. */
+static bool note_phase(const ang_load_options *options, ang_load_report *report, ang_error *err) {
+    char what[32];
+    const ang_series_info *info = &report->series[report->chosen];
+    snprintf(what, sizeof what, "series %d", info->number);
+    return ang_load_phase(what, info->phases, options, &report->phase, err);
 }
 
 bool ang_load_report_hounsfield(const ang_load_report *report) {
@@ -255,8 +262,7 @@ ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_
     ang_unpacked_clear(&unpacked);
     if (!volume) return NULL;
     *err = (ang_error){0};
-    if (!ang_series_take_phase(&report->series[report->chosen], options, &report->phase, err) ||
-        !check_numbers(volume, ang_base_name(paths[0]), err)) {
+    if (!note_phase(options, report, err) || !check_numbers(volume, ang_base_name(paths[0]), err)) {
         ang_volume_free(volume);
         return NULL;
     }

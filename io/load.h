@@ -87,8 +87,6 @@ typedef struct ang_load_report {
 void ang_load_report_clear(ang_load_report *report);
 /* What phase `phase`, from 1, of a series is: its text, or "". */
 const char *ang_series_phase_text(const ang_series_info *info, int phase);
-/* Whether the series has the phase that is asked for, which goes to `*phase`, from 1. False with ANG_INPUT. */
-bool ang_series_take_phase(const ang_series_info *info, const ang_load_options *options, int *phase, ang_error *err);
 /* Whether the values are Hounsfield units: DICOM of modality CT. Others go through the same map, as numbers. */
 bool ang_load_report_hounsfield(const ang_load_report *report);
 

@@ -204,7 +204,9 @@ static bool choose(const ang_dicom_listing *listing, const ang_load_options *opt
     if (!ang_dicom_choose(listing->folder.slices, groups, options->series, chosen, err)) return false;
     report->chosen = groups->group[*chosen].series - 1;
     const ang_series_info *info = &report->series[report->chosen];
-    if (!ang_series_take_phase(info, options, &report->phase, err)) return false;
+    char what[32];
+    snprintf(what, sizeof what, "series %d", info->number);
+    if (!ang_load_phase(what, info->phases, options, &report->phase, err)) return false;
     *chosen += (size_t)report->phase - 1;
     return groups->group[*chosen].loadable || ang_fail(err, ANG_INPUT, "phase %d of series %d cannot be loaded: %s",
                                                        report->phase, info->number, groups->group[*chosen].remark);

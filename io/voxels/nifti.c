@@ -197,7 +197,7 @@ static ang_volume *load_image(const nifti_image *image, const char *voxels, cons
         source.slope = (double)image->scl_slope;
         source.intercept = isfinite(image->scl_inter) ? (double)image->scl_inter : 0;
     }
-    if (!ang_samples_phase(label, source.phases, options, &source.phase, err)) return NULL;
+    if (!ang_load_phase(label, source.phases, options, &source.phase, err)) return NULL;
     ang_volume *volume = ang_samples_read(&source, options->threads, report, progress, err);
     if (!volume) return NULL;
     if (set_affine(image, volume, report, err, label) &&

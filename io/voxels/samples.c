@@ -94,10 +94,9 @@ static bool begin(reading *reading, ang_error *err) {
     reading->stream = ang_byte_stream_open(&source->parts, err);
     if (!reading->stream) return false;
     reading->run_left = run;
-    uint64_t before = (uint64_t)source->phase * run * ang_sample_size(source->type);
+    uint64_t before = (uint64_t)(source->phase > 1 ? source->phase - 1 : 0) * run * ang_sample_size(source->type);
     if (ang_byte_stream_skip(reading->stream, before, &ok, err)) return true;
-    return ok ? ang_fail(err, ANG_INPUT, "%s: ends before the voxels of phase %d begin", source->label,
-                         source->phase + 1)
+    return ok ? ang_fail(err, ANG_INPUT, "%s: ends before the voxels of phase %d begin", source->label, source->phase)
               : false;
 }
 
@@ -255,13 +254,6 @@ ang_volume *ang_samples_read(ang_sample_source *source, int threads, ang_load_re
     }
     report->slices_read = volume->dims[2];
     return volume;
-}
-
-bool ang_samples_phase(const char *label, int phases, const ang_load_options *options, int *phase, ang_error *err) {
-    *phase = options->phase > 0 ? options->phase - 1 : 0;
-    if (*phase < phases || *phase == 0) return true;
-    if (phases > 1) return ang_fail(err, ANG_INPUT, "--phase %d: %s has phases 1 to %d", *phase + 1, label, phases);
-    return ang_fail(err, ANG_INPUT, "--phase %d: %s is one volume, phase 1", *phase + 1, label);
 }
 
 bool ang_samples_list(const ang_volume *volume, int phases, const char *modality, const char *description,

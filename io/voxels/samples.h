@@ -13,7 +13,7 @@ typedef struct ang_sample_source {
     ang_sample type;
     bool big_endian;
     int phases;              /* volumes in the data; 0 is taken for 1 */
-    int phase;               /* which of them is read, from 0 */
+    int phase;               /* which of them is read, from 1; 0 is taken for 1 */
     size_t phase_run;        /* samples of a phase in a row before those of the next: 1 where each voxel has its phases
                                 side by side; 0: all of a volume */
     double slope, intercept; /* HU = slope * sample + intercept; slope not 0 */
@@ -35,7 +35,5 @@ bool ang_samples_list(const ang_volume *volume, int phases, const char *modality
 /* Names the phases of a series of several by their times, `first` + i * `step` in `unit` ("": none), where these are
  * finite. False with ANG_LIMIT. */
 bool ang_samples_name_phases(ang_series_info *info, double first, double step, const char *unit, ang_error *err);
-/* Which of `phases` the options ask for, from 0. False with ANG_INPUT where there is none such. */
-bool ang_samples_phase(const char *label, int phases, const ang_load_options *options, int *phase, ang_error *err);
 
 #endif

@@ -160,7 +160,7 @@ static ang_volume *load_voxels(const ang_volume_header *header, const char *path
                                 .intercept = header->intercept,
                                 .slices = options->slices};
     memcpy(source.dims, header->dims, sizeof source.dims);
-    if (!ang_samples_phase(label, header->phases, options, &source.phase, err)) return NULL;
+    if (!ang_load_phase(label, header->phases, options, &source.phase, err)) return NULL;
     size_t count = header->file_count ? header->file_count : 1;
     ang_byte_part *parts = ang_alloc(count, sizeof *parts, "list of files", err);
     char **owned = parts ? ang_alloc(count, sizeof *owned, "list of files", err) : NULL;
