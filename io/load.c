@@ -118,7 +118,7 @@ static const struct {
 
 static ang_volume *read_dicom(const char *const *paths, size_t count, const ang_load_options *options,
                               ang_load_report *report, const ang_progress *progress, ang_error *err) {
-    const char *what = ang_dicom_probe(paths[0]) ? "DICOM" : "a folder";
+    const char *what = count > 1 || ang_dicom_probe(paths[0]) ? "DICOM" : "a folder";
     if (!refuse_raw_options(ang_base_name(paths[0]), what, options, err)) return NULL;
     return ang_dicom_load(paths, count, options, report, progress, err);
 }

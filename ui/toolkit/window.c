@@ -25,7 +25,7 @@ struct ang_window {
     bool dropped_fresh; /* nobody has asked for them yet */
     GLFWcursor *cursors[ANG_CURSOR_COUNT];
     ang_cursor cursor;
-    double asked_scale; /* NaN: as suits the screen: */
+    double asked_scale; /* NaN: as suits the screen */
     double scale;
     int placed[4]; /* x, y, width, height before full screen */
 };
