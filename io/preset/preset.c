@@ -2,6 +2,7 @@
 
 #include "core/base/memory.h"
 #include "io/json.h"
+#include "io/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -38,7 +39,11 @@ static bool read_text(reader *r, const char *name, char **text) {
     if (!cJSON_IsString(item)) return ang_json_fail(&r->json, name, r->err, "%s must be a text in quotes", name);
     free(*text);
     *text = strdup(item->valuestring);
-    return *text || ang_fail(r->err, ANG_LIMIT, "%s: no memory to read it", r->json.file);
+    if (!*text) return ang_fail(r->err, ANG_LIMIT, "%s: no memory to read it", r->json.file);
+    for (char *c = *text; *c; c++)
+        if (*c == '\n' || *c == '\t') *c = ' ';
+    ang_text_clean(*text); /* it goes to terminals and into files of other programs */
+    return true;
 }
 
 /* Reads one of some words; `from_name` gives -1 for others. */

@@ -15,8 +15,9 @@
  *    "window": {"centre": HU, "width": HU}, "iso_hu": HU,
  *    "points": [{"hu": HU, "colour": [r, g, b], "opacity": 0..1 per unit_distance | "extinction": per mm}, ...]}
  * Points rise in HU, two at one HU make a step, and all give opacity or all extinction. A point may also be the array
- * [HU, r, g, b, opacity]; "unit_mm" stands for "unit_distance" and "comment" for "description". Defaults: the file's
- * name, CT, dvr, no shading, ang_phong_default, 1 mm, window 40/400, no iso_hu.
+ * [HU, r, g, b, opacity]; "unit_mm" stands for "unit_distance" and "comment" for "description"; control characters in
+ * texts become blanks or '?'. Defaults: the file's name, CT, dvr, no shading, ang_phong_default, 1 mm, window 40/400,
+ * no iso_hu.
  *
  * NULL with ANG_USAGE where the file cannot be read or is broken: one sentence with file, line and field; ANG_LIMIT.
  * Free with ang_preset_free. Thread safe. */

@@ -67,6 +67,19 @@ static void simple_form(void **state) {
     ang_preset_free(p);
 }
 
+/* No text of a preset can steer a terminal or spoil a file of another program. */
+static void texts_are_of_printable_characters(void **state) {
+    (void)state;
+    ang_preset *preset = ang_preset_parse("my.json",
+                                          "{\"name\": \"a\\u001b[31m\\nb \\u00f6\", \"description\": \"\xFF\", "
+                                          "\"unit_mm\": 1, \"points\": [[0, 0, 0, 0, 0], [9, 1, 1, 1, 1]]}",
+                                          NULL);
+    assert_non_null(preset);
+    assert_string_equal(preset->name, "a?[31m b \xC3\xB6");
+    assert_string_equal(preset->description, "?");
+    ang_preset_free(preset);
+}
+
 static void extinction_and_steps(void **state) {
     (void)state;
     ang_preset *p = parse("{\"points\":[{\"hu\":1,\"colour\":[0,0,0],\"extinction\":0},"
@@ -251,6 +264,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(full_form),
         cmocka_unit_test(simple_form),
+        cmocka_unit_test(texts_are_of_printable_characters),
         cmocka_unit_test(extinction_and_steps),
         cmocka_unit_test(broken_files_are_explained),
         cmocka_unit_test(lines_are_found),
