@@ -1,18 +1,15 @@
 #include "io/dicom/directory.h"
 
+#include "io/dicom/disc.h"
 #include "io/dicom/parse.h"
 #include "io/dicom/slice.h"
 #include "io/formats.h"
 
-#include <ctype.h>
-#include <dirent.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 
-enum { most_parts = 16, most_files = 1000000 };
+enum { most_files = 1000000 };
 
 bool ang_dicom_is_directory(const char *path) {
     if (strcasecmp(ang_base_name(path), "DICOMDIR") == 0) return true;
@@ -31,57 +28,8 @@ char *ang_dicom_folder_of(const char *path) {
     return slash == path ? strdup("/") : strndup(path, (size_t)(slash - path));
 }
 
-static char *join(const char *folder, const char *name) {
-    char *path = NULL;
-    return asprintf(&path, "%s/%s", folder, name) < 0 ? NULL : path;
-}
-
-/* Whether the name on disk stands for that in the index: upper case there, often lower here; ISO 9660 adds a version.
- */
-static bool stands_for(const char *on_disk, const char *name) {
-    size_t length = strlen(name);
-    if (strncasecmp(on_disk, name, length) != 0) return false;
-    const char *rest = on_disk + length;
-    if (*rest == '.') rest++;
-    return *rest == 0 || strcmp(rest, ";1") == 0;
-}
-
-/* Path of `name` in a folder, to be freed; NULL where it is not there. */
-static char *find_in(const char *folder, const char *name) {
-    struct stat status;
-    char *path = join(folder, name);
-    if (path && stat(path, &status) == 0) return path;
-    for (char *c = path ? path + strlen(folder) : NULL; c && *c; c++) *c = (char)tolower((unsigned char)*c);
-    if (path && stat(path, &status) == 0) return path;
-    free(path);
-    path = NULL;
-    DIR *directory = opendir(folder);
-    for (struct dirent *entry; directory && !path && (entry = readdir(directory));)
-        if (stands_for(entry->d_name, name)) path = join(folder, entry->d_name);
-    if (directory) closedir(directory);
-    return path;
-}
-
-/* The file of a ReferencedFileID, "PART\\PART\\...", below the folder; NULL where it is not there. */
-static char *find_file(const char *folder, const char *id) {
-    char *path = strdup(folder);
-    for (int i = 0; path && i < most_parts; i++) {
-        char part[65];
-        ang_dicom_value(id, i, part, sizeof part);
-        if (!part[0]) break;
-        bool leads_away = strchr(part, '/') || strcmp(part, ".") == 0 || strcmp(part, "..") == 0;
-        char *next = leads_away ? NULL : find_in(path, part);
-        free(path);
-        path = next;
-    }
-    struct stat status;
-    if (path && stat(path, &status) == 0 && S_ISREG(status.st_mode)) return path;
-    free(path);
-    return NULL;
-}
-
-static void take_file(ang_dicom_directory *directory, const char *folder, const char *id) {
-    char *path = find_file(folder, id);
+static void take_file(ang_dicom_directory *directory, ang_dicom_disc *disc, const char *id) {
+    char *path = ang_dicom_disc_find(disc, id);
     if (!path) {
         directory->missing++;
         return;
@@ -100,7 +48,7 @@ static void take_file(ang_dicom_directory *directory, const char *folder, const 
 
 /* The record's file, where it has one and is in use. Records are read in the order in which they stand: the offsets
  * that link them as a tree say nothing of where files are. */
-static void take_record(ang_dicom_reader *reader, ang_dicom_range *record, const char *folder,
+static void take_record(ang_dicom_reader *reader, ang_dicom_range *record, ang_dicom_disc *disc,
                         ang_dicom_directory *directory) {
     char id[512] = "";
     uint16_t in_use = 0xFFFF;
@@ -108,15 +56,15 @@ static void take_record(ang_dicom_reader *reader, ang_dicom_range *record, const
         if (element.tag == ANG_DICOM_TAG(0x0004, 0x1410)) ang_dicom_word(reader, &element, &in_use);
         if (element.tag == ANG_DICOM_TAG(0x0004, 0x1500)) ang_dicom_text(reader, &element, id, sizeof id);
     }
-    if (in_use != 0 && id[0]) take_file(directory, folder, id);
+    if (in_use != 0 && id[0]) take_file(directory, disc, id);
 }
 
-static void take_records(ang_dicom_reader *reader, const ang_dicom_element *sequence, const char *folder,
+static void take_records(ang_dicom_reader *reader, const ang_dicom_element *sequence, ang_dicom_disc *disc,
                          ang_dicom_directory *directory) {
     ang_dicom_range records = ang_dicom_sequence(reader, sequence), record;
     while (!directory->damaged && directory->count + directory->missing < most_files &&
            ang_dicom_next_item(reader, &records, &record))
-        take_record(reader, &record, folder, directory);
+        take_record(reader, &record, disc, directory);
     if (sequence->length != ANG_DICOM_UNDEFINED && records.next != records.end) directory->damaged = true;
 }
 
@@ -124,13 +72,15 @@ ang_dicom_directory ang_dicom_read_directory(const char *path) {
     ang_dicom_directory directory = {0};
     ang_dicom_reader *reader = malloc(sizeof *reader);
     char *folder = ang_dicom_folder_of(path);
-    if (reader && ang_dicom_open(reader, path, "", NULL) == ANG_DICOM_FOUND && folder) {
+    ang_dicom_disc *disc = folder ? ang_dicom_disc_open(folder) : NULL;
+    if (reader && ang_dicom_open(reader, path, "", NULL) == ANG_DICOM_FOUND && disc) {
         for (ang_dicom_element element; ang_dicom_next(reader, &element);)
-            if (element.tag == ANG_DICOM_TAG(0x0004, 0x1220)) take_records(reader, &element, folder, &directory);
+            if (element.tag == ANG_DICOM_TAG(0x0004, 0x1220)) take_records(reader, &element, disc, &directory);
         directory.damaged = directory.damaged || reader->truncated;
     }
     if (reader) ang_dicom_close(reader);
     free(reader);
+    ang_dicom_disc_close(disc);
     free(folder);
     if (directory.count + directory.missing == 0) directory.damaged = true;
     return directory;

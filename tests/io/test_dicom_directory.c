@@ -3,6 +3,7 @@
 #include "tests/io/dicom_sequences.h"
 
 #include "io/dicom/directory.h"
+#include "io/dicom/disc.h"
 
 /* A file that an index names, and whether its record is in use. */
 typedef struct record {
@@ -136,6 +137,51 @@ static void test_nothing_outside_its_folder(void **state) {
     ang_dicom_directory_clear(&index);
 }
 
+/* Names that differ in case alone, links, and files where folders should be. */
+static void test_the_disc(void **state) {
+    (void)state;
+    write_disc();
+    write_slice("disc/pt0/SE1/Im2", 5);
+    write_slice("disc/pt0/SE1/im2", 6);
+    write_slice("disc/pt0/SE1/im2.", 7);
+    assert_int_equal(symlink("..", FOLDER "/disc/pt0/BACK"), 0);
+    assert_int_equal(symlink("../../outside.dcm", FOLDER "/disc/pt0/LINK"), 0);
+    static const struct {
+        const char *id, *file; /* NULL: not there */
+    } cases[] = {{"PT0\\SE1\\IM2", "pt0/SE1/IM2"},
+                 {"PT0\\SE1\\im2", "pt0/SE1/im2"},
+                 {"PT0\\SE1\\iM2", "pt0/SE1/im2"},
+                 {"PT0\\SE1\\IM3", "pt0/SE1/im3.;1"},
+                 {"PT0\\LINK", "pt0/LINK"},
+                 {"OTHER.DCM", "other.dcm"},
+                 {"PT0\\SE1", NULL},
+                 {"PT0\\SE1\\IM1\\IM1", NULL},
+                 {"PT0\\BACK\\PT0\\SE1\\IM1", NULL},
+                 {"PT0\\..\\OTHER.DCM", NULL},
+                 {"PT0/SE1/IM1", NULL},
+                 {"IM1", NULL},
+                 {"", NULL}};
+    ang_dicom_disc *disc = ang_dicom_disc_open(FOLDER "/disc");
+    assert_non_null(disc);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *path = ang_dicom_disc_find(disc, cases[i].id);
+        if (!cases[i].file && path) fail_msg("%s: %s", cases[i].id, path);
+        if (cases[i].file && !path) fail_msg("%s is not found", cases[i].id);
+        if (path) assert_string_equal(path + strlen(FOLDER "/disc/"), cases[i].file);
+        free(path);
+    }
+    /* Each folder is read once: what comes later is not seen, what goes is. */
+    write_slice("disc/pt0/SE1/IM8", 8);
+    assert_null(ang_dicom_disc_find(disc, "PT0\\SE1\\IM8"));
+    assert_int_equal(unlink(FOLDER "/disc/pt0/SE1/im1"), 0);
+    assert_null(ang_dicom_disc_find(disc, "PT0\\SE1\\IM1"));
+    ang_dicom_disc_close(disc);
+    disc = ang_dicom_disc_open(FOLDER "/nowhere");
+    assert_non_null(disc);
+    assert_null(ang_dicom_disc_find(disc, "IM1"));
+    ang_dicom_disc_close(disc);
+}
+
 static void test_what_it_reads(void **state) {
     (void)state;
     write_disc();
@@ -147,9 +193,13 @@ static void test_what_it_reads(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_files_are_found_in_any_case), cmocka_unit_test(test_it_is_known_by_its_contents_too),
-        cmocka_unit_test(test_files_that_are_not_there),    cmocka_unit_test(test_damaged),
-        cmocka_unit_test(test_nothing_outside_its_folder),  cmocka_unit_test(test_what_it_reads),
+        cmocka_unit_test(test_files_are_found_in_any_case),
+        cmocka_unit_test(test_it_is_known_by_its_contents_too),
+        cmocka_unit_test(test_files_that_are_not_there),
+        cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_nothing_outside_its_folder),
+        cmocka_unit_test(test_the_disc),
+        cmocka_unit_test(test_what_it_reads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
