@@ -37,7 +37,8 @@ static const ang_option table[] = {
     FLAG_OPTION("replace", 0, ANG_VERB_PRESETS, replace,
                 "import: write over presets of your own that have these names"),
     TEXT_OPTION("series", READS | ANG_VERB_PRESETS, series, "N|UID", NULL,
-                "series to load, as numbered by info, or the end of its UID; default: the largest CT volume"),
+                "series to load, as numbered by info, or the end of its UID or file name; default: the "
+                "largest CT volume, else the first by name"),
     INTEGER_OPTION("phase", READS, phase, 0, 1000000, "0",
                    "phase to load of a series of several at one place, as numbered by info; 0: the first"),
     TEXT_OPTION("preset", DRAWS | ANG_VERB_VIEW, preset, "NAME|FILE", NULL,

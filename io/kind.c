@@ -40,50 +40,46 @@ static ang_kind kind_of_file(const char *path, const ang_load_options *options) 
 }
 
 void ang_found_clear(ang_found *found) {
-    free(found->path);
+    for (size_t i = 0; i < found->count; i++) free(found->volume[i].path);
+    free(found->volume);
     *found = (ang_found){0};
 }
 
+/* False where memory is out. */
+static bool add(ang_found *found, const char *path, ang_kind kind) {
+    if ((found->count & (found->count + 1)) == 0) { /* room for 1, 3, 7, ... */
+        ang_found_volume *grown = realloc(found->volume, (2 * found->count + 1) * sizeof *grown);
+        if (!grown) return false;
+        found->volume = grown;
+    }
+    char *copy = strdup(path);
+    if (copy) found->volume[found->count++] = (ang_found_volume){kind, copy};
+    return copy != NULL;
+}
+
 typedef struct looking {
-    const ang_load_options *options;
     const ang_progress *progress;
-    ang_found volume; /* the first by name */
-    size_t volumes;
-    char *pictures; /* the first folder that holds some */
-    bool dicom, stopped;
+    ang_found *found;
+    bool dicom, stopped, no_memory;
 } looking;
 
-static void take_volume(looking *looking, const char *path, ang_kind kind) {
-    looking->volumes++;
-    if (looking->volume.path && ang_name_compare(looking->volume.path, path) <= 0) return;
-    char *copy = strdup(path);
-    if (!copy) return;
-    free(looking->volume.path);
-    looking->volume.path = copy;
-    looking->volume.kind = kind;
-}
-
-static void take_pictures(looking *looking, const char *folder) {
-    if (looking->pictures && ang_name_compare(looking->pictures, folder) <= 0) return;
-    char *copy = strdup(folder);
-    if (!copy) return;
-    free(looking->pictures);
-    looking->pictures = copy;
-}
-
-static void look_at_file(looking *looking, const char *folder, const char *path) {
-    ang_kind kind = kind_of_file(path, looking->options);
+/* `pictures` says whether this folder has been taken for those in it. */
+static void look_at_file(looking *looking, const char *folder, const char *path, bool *pictures) {
+    /* What options say of raw input is said of no file of a folder. */
+    static const ang_load_options none = {0};
+    ang_kind kind = kind_of_file(path, &none);
+    bool taken = kind == ANG_KIND_NONE || (kind == ANG_KIND_PICTURES && *pictures);
     if (kind == ANG_KIND_DICOM)
         looking->dicom = true;
-    else if (kind == ANG_KIND_PICTURES)
-        take_pictures(looking, folder);
-    else if (kind != ANG_KIND_NONE)
-        take_volume(looking, path, kind);
+    else if (!taken && !add(looking->found, kind == ANG_KIND_PICTURES ? folder : path, kind))
+        looking->no_memory = true;
+    if (kind == ANG_KIND_PICTURES) *pictures = true;
 }
 
 /* Until the first DICOM file; links to folders are not followed. */
 static void look_in(looking *looking, const char *folder, int depth) {
     DIR *directory = opendir(folder);
+    bool pictures = false;
     if (!directory) return;
     for (struct dirent *entry; !looking->dicom && !looking->stopped && (entry = readdir(directory));) {
         struct stat status;
@@ -93,7 +89,7 @@ static void look_in(looking *looking, const char *folder, int depth) {
         if (asprintf(&path, "%s/%s", folder, entry->d_name) < 0) path = NULL;
         bool link = entry->d_type == DT_LNK;
         if (path && stat(path, &status) == 0) {
-            if (S_ISREG(status.st_mode)) look_at_file(looking, folder, path);
+            if (S_ISREG(status.st_mode)) look_at_file(looking, folder, path, &pictures);
             if (S_ISDIR(status.st_mode) && !link && depth < deepest) look_in(looking, path, depth + 1);
         }
         free(path);
@@ -101,60 +97,55 @@ static void look_in(looking *looking, const char *folder, int depth) {
     closedir(directory);
 }
 
-/* What a look has found; takes its strings. */
-static void conclude(looking *looking, const char *path, ang_found *found) {
-    if (looking->dicom || (!looking->volume.path && !looking->pictures)) {
-        *found = (ang_found){.kind = ANG_KIND_DICOM, .path = strdup(path)};
-    } else if (looking->volume.path) {
-        *found = looking->volume;
-        found->others = looking->volumes - 1;
-        looking->volume.path = NULL;
-    } else {
-        *found = (ang_found){.kind = ANG_KIND_PICTURES, .path = looking->pictures};
-        looking->pictures = NULL;
-    }
-    free(looking->volume.path);
-    free(looking->pictures);
+/* Volumes before pictures, each by name. */
+static int compare(const void *left, const void *right) {
+    const ang_found_volume *a = left, *b = right;
+    int order = (a->kind == ANG_KIND_PICTURES) - (b->kind == ANG_KIND_PICTURES);
+    return order ? order : ang_name_compare(a->path, b->path);
 }
 
-bool ang_kind_find(const char *path, const ang_load_options *options, const ang_progress *progress, ang_found *found,
-                   ang_error *err) {
-    struct stat status;
-    *found = (ang_found){0};
-    if (stat(path, &status) != 0) return ang_fail(err, ANG_INPUT, "%s: %s", path, strerror(errno));
-    bool folder = S_ISDIR(status.st_mode);
-    if (!folder && !S_ISREG(status.st_mode))
-        return ang_fail(err, ANG_INPUT, "%s: is neither a file nor a folder", path);
-    /* What options say of raw input is said of no file of a folder. */
-    static const ang_load_options none = {0};
-    looking looking = {.options = &none, .progress = progress};
-    if (folder) {
-        look_in(&looking, path, 0);
-        conclude(&looking, path, found);
-    } else {
-        *found = (ang_found){.kind = kind_of_file(path, options), .path = strdup(path)};
-    }
-    bool done = looking.stopped ? ang_fail(err, ANG_INTERRUPTED, "interrupted while looking for files")
-                                : found->path || ang_fail(err, ANG_LIMIT, "no memory for a name");
-    if (!done) ang_found_clear(found);
-    return done;
-}
-
-bool ang_kind_choose(const char *const *paths, size_t count, const ang_load_options *options,
-                     const ang_progress *progress, size_t *index, ang_found *found, ang_error *err) {
-    *index = 0;
-    if (!ang_kind_find(paths[0], options, progress, found, err)) return false;
-    for (size_t i = 1; i < count && found->kind != ANG_KIND_DICOM; i++) {
-        ang_found other;
-        if (!ang_kind_find(paths[i], options, progress, &other, err)) {
-            ang_found_clear(found);
-            return false;
-        }
-        bool better = other.kind == ANG_KIND_DICOM || (found->kind == ANG_KIND_NONE && other.kind != ANG_KIND_NONE);
-        ang_found_clear(better ? found : &other);
-        if (!better) continue;
-        *found = other;
-        *index = i;
-    }
+static bool find_in_folder(const char *path, const ang_progress *progress, ang_found *found, ang_error *err) {
+    looking looking = {.progress = progress, .found = found};
+    look_in(&looking, path, 0);
+    if (looking.stopped) return ang_fail(err, ANG_INTERRUPTED, "interrupted while looking for files");
+    if (looking.dicom) ang_found_clear(found);
+    bool ok = !looking.no_memory && (found->count > 0 || add(found, path, ANG_KIND_DICOM));
+    if (!ok) return ang_fail(err, ANG_LIMIT, "no memory for a list of files");
+    qsort(found->volume, found->count, sizeof *found->volume, compare);
     return true;
+}
+
+static bool find_one(const char *path, const ang_load_options *options, const ang_progress *progress, ang_found *found,
+                     ang_error *err) {
+    struct stat status;
+    if (stat(path, &status) != 0) return ang_fail(err, ANG_INPUT, "%s: %s", path, strerror(errno));
+    if (S_ISDIR(status.st_mode)) return find_in_folder(path, progress, found, err);
+    if (!S_ISREG(status.st_mode)) return ang_fail(err, ANG_INPUT, "%s: is neither a file nor a folder", path);
+    return add(found, path, kind_of_file(path, options)) || ang_fail(err, ANG_LIMIT, "no memory for a name");
+}
+
+/* Adds what one path holds to what all do. Sets `dicom`. */
+static bool merge(ang_found *all, const ang_found *one, bool *dicom, ang_error *err) {
+    bool ok = true;
+    for (size_t i = 0; i < one->count && ok; i++) {
+        *dicom = *dicom || one->volume[i].kind == ANG_KIND_DICOM;
+        if (one->volume[i].kind != ANG_KIND_NONE) ok = add(all, one->volume[i].path, one->volume[i].kind);
+    }
+    return ok || ang_fail(err, ANG_LIMIT, "no memory for a list of files");
+}
+
+bool ang_kind_find(const char *const *paths, size_t count, const ang_load_options *options,
+                   const ang_progress *progress, ang_found *found, ang_error *err) {
+    bool ok = true, dicom = false;
+    *found = (ang_found){0};
+    for (size_t i = 0; i < count && ok && !dicom; i++) {
+        ang_found one = {0};
+        ok = find_one(paths[i], options, progress, &one, err) && merge(found, &one, &dicom, err);
+        ang_found_clear(&one);
+    }
+    if (dicom) ang_found_clear(found);
+    if (ok && found->count == 0 && !add(found, paths[0], dicom ? ANG_KIND_DICOM : ANG_KIND_NONE))
+        ok = ang_fail(err, ANG_LIMIT, "no memory for a name");
+    if (!ok) ang_found_clear(found);
+    return ok;
 }

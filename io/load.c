@@ -6,8 +6,8 @@
 #include "io/dicom/directory.h"
 #include "io/dicom/identity.h"
 #include "io/formats.h"
-#include "io/kind.h"
 #include "io/replace.h"
+#include "io/volumes.h"
 #include "io/voxels/stack.h"
 
 #include <math.h>
@@ -73,13 +73,6 @@ static bool refuse_raw_options(const char *label, const char *what, const ang_lo
     return !name || ang_fail(err, ANG_USAGE, "%s is for raw input, and %s is %s: leave it out", name, label, what);
 }
 
-/* Formats that hold one volume have series 1 alone. */
-static bool refuse_other_series(const char *label, const ang_load_options *options, ang_error *err) {
-    char *rest;
-    if (!options->series || (strtol(options->series, &rest, 10) == 1 && !*rest)) return true;
-    return ang_fail(err, ANG_INPUT, "--series %s: %s holds one volume, series 1", options->series, label);
-}
-
 /* What is left out of a build is no format of it. */
 #ifdef ANG_WITH_NIFTI
 #define NIFTI "NIfTI-1, "
@@ -116,27 +109,50 @@ static const struct {
               [ANG_KIND_PICTURES] = {"a stack of pictures", ang_stack_load},
               [ANG_KIND_RAW] = {"raw", ang_raw_load}};
 
-static ang_volume *read_dicom(const char *const *paths, size_t count, const ang_load_options *options,
-                              ang_load_report *report, const ang_progress *progress, ang_error *err) {
-    const char *what = count > 1 || ang_dicom_probe(paths[0]) ? "DICOM" : "a folder";
-    if (!refuse_raw_options(ang_base_name(paths[0]), what, options, err)) return NULL;
-    return ang_dicom_load(paths, count, options, report, progress, err);
+/* One of several volumes: the list and the note say so. */
+static bool tell_of_others(const ang_found *found, size_t index, const ang_load_options *options,
+                           ang_load_report *report, ang_error *err) {
+    if (!ang_volumes_list_around(found, index, report, err)) return false;
+    if (!options->series)
+        ang_notes_add(&report->assumptions, "series 1 of %zu is shown: the first volume by name; %s picks another",
+                      found->count, options->series_choice ? options->series_choice : "--series");
+    return true;
 }
 
-/* `path` is the input, of which `found`, no DICOM, is read. */
-static ang_volume *read_found(const char *path, const ang_found *found, const ang_load_options *options,
-                              ang_load_report *report, const ang_progress *progress, ang_error *err) {
-    const char *label = ang_base_name(found->path);
-    if (found->kind == ANG_KIND_NONE) {
-        fail_unknown(path, label, err);
+static ang_volume *read_volume(const ang_found *found, const ang_load_options *options, ang_load_report *report,
+                               const ang_progress *progress, ang_error *err) {
+    size_t index;
+    if (!ang_volumes_choose(found, options, &index, err)) return NULL;
+    const ang_found_volume *chosen = &found->volume[index];
+    if (chosen->kind != ANG_KIND_RAW &&
+        !refuse_raw_options(ang_base_name(chosen->path), single[chosen->kind].name, options, err))
         return NULL;
-    }
-    if (found->kind != ANG_KIND_RAW && !refuse_raw_options(label, single[found->kind].name, options, err)) return NULL;
-    if (!refuse_other_series(label, options, err)) return NULL;
-    ang_volume *volume = single[found->kind].read(found->path, options, report, progress, err);
-    if (volume && found->others > 0)
-        ang_notes_add_file(&report->assumptions, label, "is shown, the first of %zu volumes in the folder",
-                           found->others + 1);
+    ang_volume *volume = single[chosen->kind].read(chosen->path, options, report, progress, err);
+    if (found->count == 1 || (volume && tell_of_others(found, index, options, report, err))) return volume;
+    ang_volume_free(volume);
+    /* What is not loaded is listed all the same, so that another can be picked. */
+    if (report->series_count == 0 && err->code != ANG_INTERRUPTED) ang_volumes_list(found, report, NULL);
+    return NULL;
+}
+
+/* DICOM at or below any of the paths, or volumes of other formats. */
+static ang_volume *dispatch(const char *const *paths, size_t count, const ang_load_options *options,
+                            ang_load_report *report, const ang_progress *progress, ang_error *err) {
+    ang_found found;
+    ang_volume *volume = NULL;
+    if (!ang_kind_find(paths, count, options, progress, &found, err)) return NULL;
+    const char *label = ang_base_name(paths[0]);
+    ang_kind kind = found.volume[0].kind;
+    bool folder = kind == ANG_KIND_DICOM && count == 1 && !ang_dicom_probe(paths[0]);
+    if (kind == ANG_KIND_NONE)
+        fail_unknown(paths[0], label, err);
+    else if (kind != ANG_KIND_DICOM)
+        volume = read_volume(&found, options, report, progress, err);
+    else if (refuse_raw_options(label, folder ? "a folder" : "DICOM", options, err))
+        volume = ang_dicom_load(paths, count, options, report, progress, err);
+    if (volume && kind != ANG_KIND_DICOM && found.count == 1 && count > 1)
+        ang_notes_add(&report->assumptions, "of %zu files, which are no DICOM, one is shown", count);
+    ang_found_clear(&found);
     return volume;
 }
 
@@ -191,6 +207,19 @@ static bool lies_in(const char *folder, const char *path) {
     return inside;
 }
 
+/* Whether reading this volume reads the file. */
+static bool volume_reads(const ang_found_volume *volume, const char *path) {
+    bool header = volume->kind == ANG_KIND_NRRD || volume->kind == ANG_KIND_METAIMAGE;
+    bool pictures = volume->kind == ANG_KIND_PICTURES;
+    bool reads = ang_file_same(volume->path, path) ||
+                 (header && ang_header_names(volume->path, volume->kind == ANG_KIND_NRRD, path)) ||
+                 (pictures && lies_in(volume->path, path) && ang_stack_probe(path));
+    char *sidecar = pictures ? ang_stack_sidecar(volume->path) : ang_raw_sidecar(volume->path);
+    reads = reads || (sidecar && ang_file_same(sidecar, path));
+    free(sidecar);
+    return reads;
+}
+
 bool ang_load_reads(const char *input, const char *path) {
     struct stat status;
     static const ang_load_options none = {0};
@@ -206,35 +235,11 @@ bool ang_load_reads(const char *input, const char *path) {
     if (folder && !lies_in(input, path)) return false;
     ang_found found;
     bool reads = false;
-    if (!ang_kind_find(input, &none, NULL, &found, NULL)) return false;
-    bool header = found.kind == ANG_KIND_NRRD || found.kind == ANG_KIND_METAIMAGE;
-    if (folder && found.kind == ANG_KIND_DICOM) reads = ang_dicom_probe(path);
-    if (folder && found.kind == ANG_KIND_PICTURES) reads = ang_stack_probe(path);
-    if (folder && found.kind != ANG_KIND_DICOM && found.kind != ANG_KIND_PICTURES)
-        reads = ang_file_same(found.path, path);
-    if (header) reads = reads || ang_header_names(found.path, found.kind == ANG_KIND_NRRD, path);
-    char *sidecar = found.kind == ANG_KIND_PICTURES ? ang_stack_sidecar(found.path) : ang_raw_sidecar(found.path);
-    reads = reads || (sidecar && ang_file_same(sidecar, path));
-    free(sidecar);
+    if (!ang_kind_find(&input, 1, &none, NULL, &found, NULL)) return false;
+    if (folder && found.volume[0].kind == ANG_KIND_DICOM) reads = ang_dicom_probe(path);
+    for (size_t i = 0; i < found.count && !reads; i++) reads = volume_reads(&found.volume[i], path);
     ang_found_clear(&found);
     return reads;
-}
-
-/* Several paths are all read where one is DICOM, else one of them. */
-static ang_volume *dispatch(const char *const *paths, size_t count, const ang_load_options *options,
-                            ang_load_report *report, const ang_progress *progress, ang_error *err) {
-    ang_found found;
-    size_t index;
-    ang_volume *volume;
-    if (!ang_kind_choose(paths, count, options, progress, &index, &found, err)) return NULL;
-    if (found.kind == ANG_KIND_DICOM)
-        volume = read_dicom(paths, count, options, report, progress, err);
-    else
-        volume = read_found(paths[index], &found, options, report, progress, err);
-    if (volume && count > 1 && found.kind != ANG_KIND_DICOM)
-        ang_notes_add(&report->assumptions, "of %zu files, which are no DICOM, one is shown", count);
-    ang_found_clear(&found);
-    return volume;
 }
 
 void ang_load_report_start(ang_load_report *report) {

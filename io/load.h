@@ -13,8 +13,9 @@
 
 /* How to read. Zero-initialised means default. */
 typedef struct ang_load_options {
-    /* --series: a number as listed (1, 2, ...) or the end of a SeriesInstanceUID; NULL: largest CT. Formats that hold
-     * one volume have series 1. */
+    /* --series: a number as listed (1, 2, ...) or the end of a SeriesInstanceUID; NULL: largest CT. Of
+     * other formats each file of a folder or archive is a series, in the order of names: a number, or how its name
+     * ends; NULL: the first. */
     const char *series;
     const char *series_choice; /* what picks another series, for a sentence of the report; NULL: "--series" */
     int phase;                 /* --phase: 1, 2, ... of a series of several phases; 0: the first */
@@ -98,7 +99,7 @@ ang_volume *ang_load(const char *path, const ang_load_options *options, ang_load
                      const ang_progress *progress, ang_error *err);
 
 /* The same for several files and folders, `count` >= 1, taken as one input: the DICOM files at and below all of them;
- * where there are none, the first that is of another format, with a note about the rest. */
+ * where there are none, each that is of another format is a series. */
 ang_volume *ang_load_all(const char *const *paths, size_t count, const ang_load_options *options,
                          ang_load_report *report, const ang_progress *progress, ang_error *err);
 

@@ -55,11 +55,12 @@ static void print_series(FILE *out, const ang_volume *volume, const ang_load_rep
         snprintf(size, sizeof size, "%d x %d x %d", info->width, info->height, info->slices);
         snprintf(spacing, sizeof spacing, "%.3f x %.3f x %.3f", info->spacing_mm[0], info->spacing_mm[1],
                  info->spacing_mm[2]);
+        bool known = info->width > 0; /* of what has not been read yet, perhaps */
         bool chosen = volume && (int)i == report->chosen;
         clean(keep_phi ? info->description : NULL, description, sizeof description);
-        fprintf(out, "  %c %3d %-6s %-25s %-21s %s%s%s%s\n", chosen ? '*' : ' ', info->number, info->modality, size,
-                spacing, info->loadable ? "" : "not a volume: ", or_dash(info->remark), description[0] ? "; " : "",
-                description);
+        fprintf(out, "  %c %3d %-6s %-25s %-21s %s%s%s%s\n", chosen ? '*' : ' ', info->number, info->modality,
+                known ? size : "not read yet", known ? spacing : "-",
+                info->loadable ? "" : "not a volume: ", or_dash(info->remark), description[0] ? "; " : "", description);
         print_phases(out, info, chosen ? report->phase : 0);
     }
 }

@@ -17,8 +17,8 @@ typedef struct ang_survey_sink {
 } ang_survey_sink;
 
 /* Lists the series of what ang_load_all would read and looks at each: one slice and the geometry of all. `report` is
- * filled as far as listing does. Formats that hold one volume are listed without a look: there is no slice to be read
- * by itself. Thread safe. False with ANG_INPUT where there is nothing, ANG_LIMIT, ANG_INTERRUPTED. */
+ * filled as far as listing does. Volumes of other formats than DICOM are listed without a look: there is no slice to be
+ * read by itself. Thread safe. False with ANG_INPUT where there is nothing, ANG_LIMIT, ANG_INTERRUPTED. */
 bool ang_survey(const char *const *paths, size_t count, const ang_load_options *options, ang_load_report *report,
                 const ang_survey_sink *sink, const ang_progress *progress, ang_error *err);
 

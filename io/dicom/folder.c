@@ -201,7 +201,7 @@ static bool find_files(const char *const *paths, size_t count, ang_dicom_folder 
     size_t capacity = 0, kept = 0;
     for (size_t i = 0; i < count; i++)
         if (!take_path(paths[i], folder, &capacity, warnings, progress, err)) return false;
-    if (folder->count == 0) return ang_fail(err, ANG_INPUT, "%s: the folder is empty", paths[0]);
+    if (folder->count == 0) return ang_fail(err, ANG_INPUT, "%s: there is no file in it", paths[0]);
     qsort(folder->paths, folder->count, sizeof *folder->paths, compare_paths);
     for (size_t i = 0; i < folder->count; i++) {
         if (kept > 0 && strcmp(folder->paths[kept - 1], folder->paths[i]) == 0)

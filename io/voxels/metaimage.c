@@ -255,6 +255,7 @@ static bool use_geometry(parsing *p, ang_error *err) {
 bool ang_metaimage_parse(const char *label, const uint8_t *bytes, size_t size, ang_volume_header *header,
                          ang_error *err) {
     parsing p = {.label = label, .header = header, .unit_mm = 1};
-    *header = (ang_volume_header){.format = "MetaImage", .slope = 1, .phases = 1, .phase_step = NAN};
+    *header =
+        (ang_volume_header){.format = "MetaImage", .field = "DimSize", .slope = 1, .phases = 1, .phase_step = NAN};
     return read_keys(&p, bytes, size, err) && use_coding(&p, err) && use_sizes(&p, err) && use_geometry(&p, err);
 }

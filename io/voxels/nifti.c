@@ -179,6 +179,7 @@ static ang_volume *load_image(const nifti_image *image, const char *voxels, cons
                               ang_error *err) {
     const ang_byte_part part = {.path = voxels};
     ang_sample_source source = {.label = label,
+                                .field = "dim",
                                 .parts = {.part = &part, .count = 1},
                                 .slope = 1,
                                 .phases = phases_of(image),

@@ -214,7 +214,7 @@ static bool check_fields(parsing *p, ang_error *err) {
 
 bool ang_nrrd_parse(const char *label, const uint8_t *bytes, size_t size, ang_volume_header *header, ang_error *err) {
     parsing p = {.label = label, .header = header, .old_min = NAN, .old_max = NAN};
-    *header = (ang_volume_header){.format = "NRRD", .slope = 1, .phases = 1};
+    *header = (ang_volume_header){.format = "NRRD", .field = "sizes", .slope = 1, .phases = 1};
     ang_nrrd_axes_start(&p.axes);
     return read_fields(&p, bytes, size, err) && check_fields(&p, err) && ang_nrrd_axes_use(&p.axes, label, header, err);
 }

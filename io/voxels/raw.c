@@ -148,6 +148,7 @@ ang_volume *ang_raw_load(const char *path, const ang_load_options *options, ang_
     if (!find_form(path, options, &form, report, err)) return NULL;
     const ang_byte_part part = {.path = path};
     ang_sample_source source = {.label = ang_base_name(path),
+                                .field = options->raw_dims ? "--raw-dims" : "dims",
                                 .parts = {.part = &part, .count = 1},
                                 .type = form.type,
                                 .slope = 1,

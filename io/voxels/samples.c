@@ -162,10 +162,11 @@ static bool check_size(ang_sample_source *source, size_t count, ang_error *err) 
     source->parts.type = source->type;
     source->parts.width = source->dims[0];
     source->parts.height = source->dims[1];
-    char what[128], phases[32] = "";
+    char what[192], phases[32] = "", field[48] = "";
     if (phases_of(source) > 1) snprintf(phases, sizeof phases, "%d phases of ", source->phases);
-    snprintf(what, sizeof what, "%s%d x %d x %d voxels of %zu byte%s", phases, source->dims[0], source->dims[1],
-             source->dims[2], size, ang_plural((long long)size));
+    if (source->field) snprintf(field, sizeof field, " (%s)", source->field);
+    snprintf(what, sizeof what, "%s%d x %d x %d voxels of %zu byte%s%s", phases, source->dims[0], source->dims[1],
+             source->dims[2], size, ang_plural((long long)size), field);
     return ang_byte_parts_check(&source->parts, source->label, what, err);
 }
 

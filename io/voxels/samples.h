@@ -8,6 +8,7 @@
 /* Where the voxels are and what they mean. Strings and parts are borrowed. */
 typedef struct ang_sample_source {
     const char *label;    /* names the file in errors */
+    const char *field;    /* what the format calls `dims`; NULL: it has no name */
     ang_byte_parts parts; /* `part_bytes`, `type`, `width` and `height` are set by ang_samples_read */
     int dims[3];          /* of one phase, x fastest */
     ang_sample type;

@@ -152,6 +152,7 @@ static ang_volume *load_voxels(const ang_volume_header *header, const char *path
     ang_notes_append(&report->assumptions, &header->assumptions);
     ang_notes_append(&report->warnings, &header->warnings);
     ang_sample_source source = {.label = label,
+                                .field = header->field,
                                 .type = header->type,
                                 .big_endian = header->big_endian,
                                 .phases = header->phases,

@@ -10,6 +10,7 @@
 /* Owns its strings; zero-initialise. */
 typedef struct ang_volume_header {
     char format[16];
+    const char *field;              /* what the format calls `dims` */
     int dims[3];                    /* of one phase, x fastest */
     ang_mat4 affine;                /* voxel index to LPS mm */
     int phases;                     /* >= 1 */

@@ -199,11 +199,13 @@ static void bad_members_are_left_out(void **state) {
     add(&zip, (member){.name = "voxels.raw", .data = words, .size = sizeof words});
     add(&zip, (member){.name = "voxels.raw", .data = "other", .size = 5});
     add(&zip, (member){.name = "sum", .data = "damaged", .size = 7, .wrong_sum = true});
+    add(&zip, (member){.name = "more", .data = "more than is claimed", .size = 20, .deflated = true, .claimed = 4});
     finish(&zip, "mixed.zip");
     expect_volume("mixed.zip", 0, lps);
     expect_note("mixed.zip", true, "leads out of it");
     expect_note("mixed.zip", true, "is twice in the archive");
     expect_note("mixed.zip", true, "cannot be unpacked");
+    expect_note("mixed.zip", true, "its size is another than the archive says");
     expect_nothing_left();
     assert_int_not_equal(access(FOLDER "/escaped.nhdr", F_OK), 0);
     assert_int_not_equal(access(SCRATCH "/escaped.nhdr", F_OK), 0);

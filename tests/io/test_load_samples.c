@@ -289,6 +289,66 @@ static void test_nifti(void **state) {
 
 #endif
 
+static void write_nrrd(const char *name, int width, const char *encoding) {
+    char text[256];
+    int length = snprintf(text, sizeof text,
+                          "NRRD0004\ntype: uint8\ndimension: 3\nsizes: %d 1 2\nspace: LPS\nspace directions: (1,0,0) "
+                          "(0,1,0) (0,0,1)\nencoding: %s\n\n0 1 2 3 4 5 6 7",
+                          width, encoding);
+    write_file(name, text, (size_t)length);
+}
+
+/* Loads FOLDER with --series `series` and expects so many columns as number `number` of 4. */
+static void expect_series(const char *const *paths, size_t count, const char *series, int columns, int number) {
+    ang_load_options options = {.series = series};
+    ang_load_report report;
+    ang_error err = {0};
+    ang_volume *v = ang_load_all(paths, count, &options, &report, NULL, &err);
+    if (!v) fail_msg("%s", err.message);
+    assert_int_equal(v->dims[0], columns);
+    assert_int_equal(report.series_count, 4);
+    assert_int_equal(report.chosen, number - 1);
+    assert_int_equal(report.phase, 1);
+    for (int i = 0; i < 4; i++) assert_int_equal(report.series[i].number, i + 1);
+    assert_int_equal(report.series[0].width, 2);
+    assert_int_equal(report.series[1].width, 3);
+    assert_string_equal(report.series[1].remark, "NRRD");
+    assert_false(report.series[2].loadable);
+    assert_non_null(strstr(report.series[2].remark, "x12.nrrd: "));
+    assert_int_equal(report.assumptions.count, series ? 0 : 1);
+    if (!series)
+        assert_non_null(strstr(report.assumptions.text[0], "series 1 of 4 is shown: the first volume by name"));
+    ang_load_report_clear(&report);
+    ang_volume_free(v);
+}
+
+/* Several volumes that are no DICOM, in a folder or as several paths: each is a series. */
+static void test_several_volumes(void **state) {
+    (void)state;
+    fresh_folder(FOLDER);
+    write_nrrd("x9.nrrd", 2, "ascii");
+    write_nrrd("X10.nrrd", 3, "ascii");
+    write_nrrd("x12.nrrd", 3, "none of all"); /* its header is wrong */
+    write_nrrd("y.nrrd", 4, "ascii");
+    static const char *const folder[] = {FOLDER};
+    static const char *const files[] = {FOLDER "/x9.nrrd", FOLDER "/X10.nrrd", FOLDER "/x12.nrrd", FOLDER "/y.nrrd"};
+    expect_series(folder, 1, NULL, 2, 1);
+    expect_series(folder, 1, "1", 2, 1);
+    expect_series(folder, 1, "2", 3, 2);
+    expect_series(folder, 1, "y.nrrd", 4, 4);
+    expect_series(files, 4, "4", 4, 4);
+    const ang_load_options none = {.series = "5"}, wrong = {.series = "3"};
+    must_refuse(FOLDER, &none, ANG_INPUT, "--series 5: there are volumes 1 to 4, and no file's name ends so");
+    must_refuse(FOLDER, &wrong, ANG_INPUT, "x12.nrrd: ");
+    /* What is refused is listed, so that another can be picked. */
+    ang_load_report report;
+    ang_error err = {0};
+    assert_null(ang_load(FOLDER, &wrong, &report, NULL, &err));
+    assert_int_equal(report.series_count, 4);
+    ang_load_report_clear(&report);
+    for (size_t i = 0; i < 4; i++) assert_true(ang_load_reads(FOLDER, files[i]));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_raw),
@@ -298,6 +358,7 @@ int main(void) {
         cmocka_unit_test(test_formats_that_are_not_read),
 #ifdef ANG_WITH_NIFTI
         cmocka_unit_test(test_nifti),
+        cmocka_unit_test(test_several_volumes),
 #endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

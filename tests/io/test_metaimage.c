@@ -129,7 +129,7 @@ static void refused(void **state) {
         ang_code code;
     } cases[] = {
         {"NDims = 3\nDimSize = 65535 65535 65535\nElementType = MET_SHORT\nElementDataFile = LOCAL\n",
-         "do not fit a file", ANG_INPUT},
+         "65535 x 65535 x 65535 voxels of 2 bytes (DimSize) do not fit a file", ANG_INPUT},
         {"NDims = 3\nDimSize = 65535 65535 65535\nElementType = MET_SHORT\nCompressedData = True\n"
          "ElementDataFile = LOCAL\n",
          "do not fit a file", ANG_INPUT},

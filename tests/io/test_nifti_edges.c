@@ -146,7 +146,7 @@ static void phases(void **state) {
     assert_non_null(strstr(err.message, "--phase 5: 4d.nii has phases 1 to 4"));
     ang_load_report_clear(&report);
     write_nifti("cut.nii", &n, 3); /* all that the header claims must be there */
-    must_fail(FOLDER "/cut.nii", ANG_INPUT, "4 phases of 4 x 3 x 2 voxels of 2 bytes do not fit a file");
+    must_fail(FOLDER "/cut.nii", ANG_INPUT, "4 phases of 4 x 3 x 2 voxels of 2 bytes (dim) do not fit a file");
 }
 
 static int setup(void **state) {

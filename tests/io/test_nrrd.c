@@ -192,7 +192,7 @@ static void refused(void **state) {
         ang_code code;
     } cases[] = {
         {"NRRD0004\ntype: short\ndimension: 3\nsizes: 65535 65535 65535\nencoding: raw\nendian: little\n\n",
-         "do not fit a file", ANG_INPUT},
+         "65535 x 65535 x 65535 voxels of 2 bytes (sizes) do not fit a file", ANG_INPUT},
         {"NRRD0004\ntype: short\ndimension: 3\nsizes: 65535 65535 65535\nencoding: gzip\nendian: little\n\n",
          "do not fit a file", ANG_INPUT},
         {"NRRD0004\ntype: short\ndimension: 3\nsizes: 2000000000 2000000000 2000000000\nencoding: raw\n\n",

@@ -103,15 +103,16 @@ static bool write_all(int out, const char *bytes, size_t size) {
 }
 
 /* How a member went. */
-typedef enum outcome { WHOLE, DAMAGED, FAILED } outcome;
+typedef enum outcome { WHOLE, DAMAGED, OTHER_SIZE, FAILED } outcome;
 
 /* `size` is what the archive claims: no more is written. */
 static outcome copy(unpacking *unpacking, zip_file_t *in, int out, zip_uint64_t size, ang_error *err) {
     zip_uint64_t done = 0;
     for (;;) {
         zip_int64_t got = zip_fread(in, unpacking->buffer, piece);
-        if (got < 0 || done + (zip_uint64_t)(got > 0 ? got : 0) > size) return DAMAGED;
-        if (got == 0) return done == size ? WHOLE : DAMAGED;
+        if (got < 0) return DAMAGED;
+        if (got == 0) return done == size ? WHOLE : OTHER_SIZE;
+        if (done + (zip_uint64_t)got > size) return OTHER_SIZE;
         if (!write_all(out, unpacking->buffer, (size_t)got)) {
             ang_fail(err, ANG_LIMIT, "%s: its files cannot be written to %s (%s)", unpacking->label, unpacking->folder,
                      strerror(errno));
@@ -148,15 +149,17 @@ static bool unpack_member(unpacking *unpacking, int folder, zip_uint64_t index, 
     zip_file_t *in = zip_fopen_index(unpacking->zip, index, 0);
     int out = in ? create(folder, name) : -1;
     outcome outcome = out < 0 ? DAMAGED : copy(unpacking, in, out, member.size, err);
-    const char *why = zip_error_strerror(in ? zip_file_get_error(in) : zip_get_error(unpacking->zip));
+    const char *why = outcome == OTHER_SIZE
+                          ? "its size is another than the archive says"
+                          : zip_error_strerror(in ? zip_file_get_error(in) : zip_get_error(unpacking->zip));
     if (outcome == DAMAGED && in && out < 0)
         ang_notes_add_file(unpacking->warnings, last_name(name),
                            "is twice in the archive or has no name here: left out");
-    else if (outcome == DAMAGED)
+    else if (outcome == DAMAGED || outcome == OTHER_SIZE)
         ang_notes_add_file(unpacking->warnings, last_name(name), "cannot be unpacked (%s): left out", why);
     if (in) zip_fclose(in);
     if (out >= 0) close(out);
-    if (outcome == DAMAGED && out >= 0) unlinkat(folder, name, 0);
+    if ((outcome == DAMAGED || outcome == OTHER_SIZE) && out >= 0) unlinkat(folder, name, 0);
     return outcome != FAILED;
 }
 
