@@ -51,6 +51,8 @@ static bool offer_input(ang_verb verb, const char *file, ang_stated *stated, ang
     const ang_state *state = &stated->state;
     ang_options *options = &stated->options;
     int series = ang_state_series(state);
+    if (options->argument_count == 0 && !state->input_path)
+        return ang_fail(err, ANG_USAGE, "%s: this state does not say where its data are: name them, too", file);
     if (options->argument_count == 0 && state->input_path) {
         if (access(state->input_path, F_OK) != 0)
             return ang_fail(err, ANG_INPUT, "%s: the data of this state, %s, are not there; name where they are now",

@@ -38,7 +38,7 @@ static bool read_model(const cJSON *item, ang_costs *costs) {
     ang_cost_model *model = &costs->of[costs->count].model;
     for (int i = 0; i < ANG_COST_TERMS; i++) {
         const cJSON *term = cJSON_GetArrayItem(terms, i);
-        if (!cJSON_IsNumber(term) || !(term->valuedouble >= 0)) return false;
+        if (!cJSON_IsNumber(term) || !(term->valuedouble >= 0) || !isfinite(term->valuedouble)) return false;
         model->term[i] = term->valuedouble;
     }
     model->spread = cJSON_IsNumber(spread) ? spread->valuedouble : NAN;
@@ -47,7 +47,7 @@ static bool read_model(const cJSON *item, ang_costs *costs) {
     return true;
 }
 
-static bool read_costs(const char *path, const char *key, ang_costs *costs) {
+bool ang_costs_read(const char *path, const char *key, ang_costs *costs) {
     ang_json json;
     *costs = (ang_costs){.count = 0};
     if (!path[0] || !ang_json_open(path, &json, NULL)) return false;
@@ -56,7 +56,7 @@ static bool read_costs(const char *path, const char *key, ang_costs *costs) {
                 *ms = cJSON_GetObjectItemCaseSensitive(json.root, "measured_ms");
     bool ok = cJSON_IsString(of) && strcmp(of->valuestring, key) == 0 && cJSON_IsArray(methods);
     cJSON_ArrayForEach(item, methods) ok = ok && read_model(item, costs);
-    costs->ms = cJSON_IsNumber(ms) ? ms->valuedouble : 0;
+    costs->ms = cJSON_IsNumber(ms) && ms->valuedouble >= 0 && isfinite(ms->valuedouble) ? ms->valuedouble : 0;
     ang_json_close(&json);
     if (!ok) *costs = (ang_costs){.count = 0};
     return ok;
@@ -91,7 +91,7 @@ bool ang_costs_load(ang_gl *gl, ang_costs *costs, ang_costs_origin *origin, cons
     ang_machine_processor(origin->processor, sizeof origin->processor);
     make_key(origin, key, sizeof key);
     find_path(key, origin->path, sizeof origin->path);
-    read_costs(origin->path, key, costs);
+    ang_costs_read(origin->path, key, costs);
     double before = costs->ms;
     if (!ang_costs_measure(gl, costs, progress, err)) return false;
     origin->cached = !(costs->ms > before);
@@ -104,7 +104,7 @@ bool ang_costs_forget(const ang_costs_origin *origin, const char *method) {
     ang_costs costs;
     size_t left = 0;
     make_key(origin, key, sizeof key);
-    if (!read_costs(origin->path, key, &costs)) return false;
+    if (!ang_costs_read(origin->path, key, &costs)) return false;
     for (size_t i = 0; i < costs.count; i++)
         if (strcmp(costs.of[i].method, method) != 0) costs.of[left++] = costs.of[i];
     bool found = left < costs.count;

@@ -18,6 +18,10 @@ typedef struct ang_costs_origin {
 bool ang_costs_load(ang_gl *gl, ang_costs *costs, ang_costs_origin *origin, const ang_progress *progress,
                     ang_error *err);
 
+/* Reads a cache's file. False, and no models, where it cannot be read, is damaged or is of another `key` than it was
+ * written for. */
+bool ang_costs_read(const char *path, const char *key, ang_costs *costs);
+
 /* Drops a model that has proved wrong from the cache, so that the next ang_costs_load measures it anew. False where it
  * is not in there. */
 bool ang_costs_forget(const ang_costs_origin *origin, const char *method);

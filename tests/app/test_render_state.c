@@ -123,7 +123,7 @@ static void what_cannot_be_is_refused(void **state) {
         int code;
         const char *arguments, *says;
     } refused[] = {
-        {2, "render --state " FOLDER "/p.png" QUIET "/q.png", "give one file or folder to read"},
+        {2, "render --state " FOLDER "/p.png" QUIET "/q.png", "p.png: this state does not say where its data are"},
         {2, "render " DATA " --state " FOLDER "/p.png" QUIET "/p.png", "is read as state"},
         {2, "render " DATA " --state " FOLDER "/none.json" QUIET "/q.png", "none.json: cannot be read"},
         {2, "render " DATA " --state " FOLDER "/empty.png" QUIET "/q.png", "carries no text angioscope_state"},

@@ -287,6 +287,32 @@ preferences = {
     "corner_text": False, "crosshair": True, "recent": ["/data/a", "/data/b"],
 }
 save("fuzz_preferences", "whole", json.dumps(preferences))
+save("fuzz_costs", "two", json.dumps({"of": "this machine", "measured_ms": 12.5, "methods": [
+    {"name": "cpu", "terms": [1, 2, 0.5, 0.25, 3], "spread": 0.1}, {"name": "reference", "terms": [0, 1, 2, 3, 4], "spread": None}]}))
+
+
+def chunk(name, data):
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+
+def attribute(name, kind, value):
+    return name + b"\0" + kind + b"\0" + struct.pack("<I", len(value)) + value
+
+
+text = json.dumps(state).encode()
+for name, packed in (("plain", chunk(b"tEXt", b"angioscope_state\0" + text)),
+                     ("international", chunk(b"iTXt", b"angioscope_state\0\0\0\0\0" + text)),
+                     ("packed", chunk(b"zTXt", b"angioscope_state\0\0" + zlib.compress(text)))):
+    save("fuzz_picture_state", name, b"\0\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 1, 8, 0, 0, 0, 0)) + packed +
+         chunk(b"IDAT", zlib.compress(b"\0\1\2")) + chunk(b"IEND", b""))
+box = struct.pack("<4i", 0, 0, 1, 0)
+channel = b"G\0" + struct.pack("<iB3xii", 2, 0, 1, 1)
+save("fuzz_picture_state", "exr", b"\1\x76\x2f\x31\x01" + struct.pack("<I", 2) + attribute(b"channels", b"chlist", channel + b"\0") +
+     attribute(b"compression", b"compression", b"\0") + attribute(b"dataWindow", b"box2i", box) +
+     attribute(b"displayWindow", b"box2i", box) + attribute(b"lineOrder", b"lineOrder", b"\0") +
+     attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1)) + attribute(b"screenWindowCenter", b"v2f", bytes(8)) +
+     attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + attribute(b"angioscope_state", b"string", text) + b"\0" +
+     struct.pack("<QiI2f", 0, 0, 8, 1, 2))
 
 # Volume properties of 3D Slicer.
 opacity, colour = "6 -100 0 50 0.25 3000 1", "12 -100 0 0 0 50 1 0.5 0 3000 1 1 1"
