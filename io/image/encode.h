@@ -34,9 +34,6 @@ bool ang_png_encode(const ang_pixels *pixels, ang_bytes *out, ang_error *err);
 bool ang_oiio_encode(const char *format, const ang_pixels *pixels, ang_bytes *out, ang_error *err);
 /* Reads `path` with the reader `format`; see ang_picture_read. */
 bool ang_oiio_read(const char *path, const char *format, ang_image *out, ang_error *err);
-/* A text that the file has under a name. NULL with ANG_INPUT, ANG_USAGE where there is none, ANG_LIMIT. Free with
- * free(). */
-char *ang_oiio_text_of(const char *path, const char *format, const char *name, ang_error *err);
 
 /* Draws a line of text (UTF-8) into `mask` (width * height coverages in 0..1, rows from the top; the larger of what is
  * there and the text's coverage is kept), its baseline at (x, y) in pixels. `align` is -1, 0 or 1: x is the left end,
@@ -65,7 +62,6 @@ void ang_oiio_grey_close(void *handle);
 typedef struct ang_oiio_functions {
     bool (*encode)(const char *format, const ang_pixels *pixels, ang_bytes *out, ang_error *err);
     bool (*read)(const char *path, const char *format, ang_image *out, ang_error *err);
-    char *(*text_of)(const char *path, const char *format, const char *name, ang_error *err);
     bool (*text)(float *mask, int width, int height, int x, int y, const char *text, int size, const char *font,
                  int align);
     bool (*text_size)(const char *text, int size, const char *font, int *text_width, int *top, int *bottom);

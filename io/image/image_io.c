@@ -2,6 +2,7 @@
 
 #include "core/base/memory.h"
 #include "io/image/encode.h"
+#include "io/image/picture_text.h"
 #include "io/image/portable.h"
 #include "io/replace.h"
 
@@ -190,6 +191,5 @@ char *ang_image_state(const char *path, ang_error *err) {
         ang_fail(err, ANG_USAGE, "%s: carries no state; .png and .exr may", path);
         return NULL;
     }
-    if (!refuse(path, format, true, err)) return NULL;
-    return ang_oiio_text_of(path, oiio_name(format), ANG_IMAGE_STATE, err);
+    return format == PNG ? ang_png_text(path, ANG_IMAGE_STATE, err) : ang_exr_text(path, ANG_IMAGE_STATE, err);
 }

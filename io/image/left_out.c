@@ -21,12 +21,6 @@ bool ang_oiio_read(const char *path, const char *format, ang_image *out, ang_err
     return refuse(err);
 }
 
-char *ang_oiio_text_of(const char *path, const char *format, const char *name, ang_error *err) {
-    (void)path, (void)format, (void)name;
-    refuse(err);
-    return NULL;
-}
-
 void *ang_oiio_grey_open(const char *path, ang_grey_form *form, ang_error *err) {
     (void)path, (void)form;
     refuse(err);

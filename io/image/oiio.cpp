@@ -103,29 +103,6 @@ static bool read_picture(const char *path, const char *format, ang_image *out, a
     }
 }
 
-static char *text_of(const char *path, const char *format, const char *name, ang_error *err) {
-    try {
-        auto input = ImageInput::create(format);
-        ImageSpec spec;
-        if (!input || !input->open(path, spec)) {
-            std::string reason = input ? input->geterror() : geterror();
-            std::replace(reason.begin(), reason.end(), '\n', ' ');
-            ang_fail(err, ANG_INPUT, "%s: cannot be read as %s (%s)", path, format, reason.c_str());
-            return nullptr;
-        }
-        std::string text(spec.get_string_attribute(name));
-        char *copy = text.empty() ? nullptr : strdup(text.c_str());
-        if (text.empty()) ang_fail(err, ANG_USAGE, "%s: carries no text %s", path, name);
-        if (!text.empty() && !copy) ang_fail(err, ANG_LIMIT, "%s: no memory for its text", path);
-        return copy;
-    } catch (const std::bad_alloc &) {
-        ang_fail(err, ANG_LIMIT, "%s: no memory for the picture", path);
-    } catch (const std::exception &exception) {
-        ang_fail(err, ANG_INPUT, "%s: cannot be read (%s)", path, exception.what());
-    }
-    return nullptr;
-}
-
 static bool measure_text(const char *text, int size, const char *font, int *text_width, int *top, int *bottom) {
     try {
         ROI extent = ImageBufAlgo::text_size(text, size, font);
@@ -165,5 +142,5 @@ static bool draw_text(float *mask, int width, int height, int x, int y, const ch
 }
 
 extern "C" __attribute__((visibility("default")))
-const ang_oiio_functions ang_oiio_module = {encode_picture, read_picture,  text_of,        draw_text,      measure_text,
+const ang_oiio_functions ang_oiio_module = {encode_picture, read_picture,  draw_text,      measure_text,
                                             ang_grey_open,  ang_grey_read, ang_grey_close, ang_grey_settle};

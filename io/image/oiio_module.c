@@ -17,11 +17,6 @@ bool ang_oiio_read(const char *path, const char *format, ang_image *out, ang_err
     return oiio && oiio->read(path, format, out, err);
 }
 
-char *ang_oiio_text_of(const char *path, const char *format, const char *name, ang_error *err) {
-    const ang_oiio_functions *oiio = module(ANG_INPUT, err);
-    return oiio ? oiio->text_of(path, format, name, err) : NULL;
-}
-
 bool ang_oiio_text(float *mask, int width, int height, int x, int y, const char *text, int size, const char *font,
                    int align) {
     const ang_oiio_functions *oiio = module(ANG_OUTPUT, NULL);

@@ -313,6 +313,92 @@ static void a_png_in_memory_is_that_of_the_file(void **state) {
     ang_image_clear(&image);
 }
 
+/* A chunk of PNG at `out`; returns its bytes. Sums are left 0: readers of texts need not look at them. */
+static size_t put_chunk(unsigned char *out, const char *type, const void *data, size_t size, size_t claimed) {
+    for (int i = 0; i < 4; i++) out[i] = (unsigned char)(claimed >> (24 - 8 * i));
+    memcpy(out + 4, type, 4);
+    memcpy(out + 8, data, size);
+    memset(out + 8 + size, 0, 4);
+    return size + 12;
+}
+
+static void expect_state(const char *name, const unsigned char *bytes, size_t size, const char *text,
+                         const char *needle) {
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s", ANG_TEST_TMP, name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    fclose(file);
+    ang_error err = {0};
+    char *found = ang_image_state(path, &err);
+    if (text && !found) fail_msg("%s", err.message);
+    if (text) assert_string_equal(found, text);
+    if (!text) assert_null(found);
+    if (!text && !strstr(err.message, needle)) fail_msg("%s", err.message);
+    free(found);
+    unlink(path);
+}
+
+/* States in all kinds of text that PNG has, and what claims more than the file holds. */
+static void test_texts_of_png(void **state) {
+    (void)state;
+    static const char start[] = "\x89PNG\r\n\x1a\n";
+    /* "packed state" by zlib */
+    static const char packed[] = "\x78\x9c\x2b\x48\x4c\xce\x4e\x4d\x51\x28\x2e\x49\x2c\x49\x05\x00\x1e\x3b\x04\xaa";
+    static const struct {
+        const char *type, *data;
+        size_t size, more; /* bytes claimed and not there */
+        const char *text, *needle;
+    } cases[] = {
+        {"tEXt", "angioscope_state\0a state", 24, 0, "a state", NULL},
+        {"tEXt", "angioscope_states\0a state", 25, 0, NULL, "carries no text angioscope_state"},
+        {"tEXt", "angioscope_state", 16, 0, NULL, "carries no text angioscope_state"},
+        {"iTXt", "angioscope_state\0\0\0en\0name\0a state", 34, 0, "a state", NULL},
+        {"iTXt", "angioscope_state\0\0\0en", 21, 0, NULL, "is damaged or no PNG file"},
+        {"tEXt", "angioscope_state\0a state", 24, 1000, NULL, "damaged or too long"},
+        {"tEXt", "angioscope_state\0a state", 24, 0xFFFFFF00, NULL, "damaged or too long"},
+        {"IDAT", "x", 1, 0xFFFFFF00, NULL, "is damaged or no PNG file"},
+    };
+    unsigned char bytes[256];
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        size_t size = 8;
+        memcpy(bytes, start, 8);
+        size += put_chunk(bytes + size, "tEXt", "other\0text", 10, 10);
+        size += put_chunk(bytes + size, cases[i].type, cases[i].data, cases[i].size, cases[i].size + cases[i].more);
+        size += put_chunk(bytes + size, "IEND", "", 0, 0);
+        expect_state("texts.png", bytes, size, cases[i].text, cases[i].needle);
+    }
+    unsigned char data[64] = "angioscope_state";
+    memcpy(data + 18, packed, sizeof packed - 1);
+    memcpy(bytes, start, 8);
+    size_t size = 8 + put_chunk(bytes + 8, "zTXt", data, 18 + sizeof packed - 1, 18 + sizeof packed - 1);
+    expect_state("packed.png", bytes, size, "packed state", NULL);
+    bytes[8 + 8 + 18 + 6] ^= 0xFF;
+    expect_state("packed.png", bytes, size, NULL, "damaged or too long");
+    expect_state("cut.png", bytes, 4, NULL, "is damaged or no PNG file");
+}
+
+/* An OpenEXR header whose attributes claim more than there is. */
+static void test_texts_of_exr(void **state) {
+    (void)state;
+    static const char sound[] =
+        "\x76\x2f\x31\x01\2\0\0\0other\0string\0\2\0\0\0xyangioscope_state\0string\0\7\0\0\0a state\0";
+    unsigned char bytes[sizeof sound];
+    memcpy(bytes, sound, sizeof sound);
+    expect_state("texts.exr", bytes, sizeof sound, "a state", NULL);
+    bytes[8 + 6 + 7 + 3] = 0x69; /* the first attribute's size */
+    expect_state("texts.exr", bytes, sizeof sound, NULL, "is damaged or no EXR file");
+    memcpy(bytes, sound, sizeof sound);
+    bytes[8 + 6 + 7 + 4 + 2 + 17 + 7 + 3] = 0x69; /* the state's */
+    expect_state("texts.exr", bytes, sizeof sound, NULL, "damaged or too long");
+    memcpy(bytes, sound, sizeof sound);
+    bytes[8] = '\0';
+    expect_state("texts.exr", bytes, sizeof sound, NULL, "carries no text angioscope_state");
+    expect_state("texts.exr", bytes, 20, NULL, "carries no text angioscope_state");
+    expect_state("texts.exr", (const unsigned char *)sound, 20, NULL, "is damaged or no EXR file");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_format_comes_back),
@@ -324,6 +410,8 @@ int main(void) {
         cmocka_unit_test(a_png_in_memory_is_that_of_the_file),
         cmocka_unit_test(files_hold_nothing_that_identifies),
         cmocka_unit_test(formats_round_as_they_say),
+        cmocka_unit_test(test_texts_of_png),
+        cmocka_unit_test(test_texts_of_exr),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
