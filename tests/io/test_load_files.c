@@ -110,7 +110,7 @@ static void test_clear_errors(void **state) {
     must_fail(FOLDER "/nowhere", ANG_INPUT, "nowhere");
     must_fail("/dev/null", ANG_INPUT, "neither a file nor a folder");
     fresh_folder(FOLDER);
-    must_fail(FOLDER, ANG_INPUT, "empty");
+    must_fail(FOLDER, ANG_INPUT, "there is no file in it");
 }
 
 static void test_rescale_by_slice(void **state) {
