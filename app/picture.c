@@ -51,7 +51,8 @@ ang_preset *ang_picture_choose_preset(const ang_options *options, const ang_volu
         ang_notes_add(assumptions, "no --preset given: opacity, colour and window come from the histogram");
         return preset_from_histogram(volume, options->threads, err);
     }
-    bool values = options->mode && strcmp(options->mode, "dvr") != 0 && strcmp(options->mode, "iso") != 0;
+    int mode = options->mode ? ang_mode_from_name(options->mode) : -1; /* lookups: of the preset's */
+    bool values = mode == ANG_MODE_MIP || mode == ANG_MODE_MINIP || mode == ANG_MODE_MEAN;
     const char *name = values ? "ct-mip" : "ct-bone";
     ang_notes_add(assumptions, "no --preset given: %s is used; 'angioscope presets list' shows others", name);
     return ang_preset_find(name, ang_app_preset_folders(), err);

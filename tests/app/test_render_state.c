@@ -61,6 +61,17 @@ static void a_picture_is_drawn_again(void **state) {
     }
 }
 
+/* Bricks meet elsewhere than where the volume is whole. */
+static void memory_for_textures_is_carried(void **state) {
+    (void)state;
+    need_pictures();
+    expect(0, "render " DATA " --method slicing --gpu-memory 0.08 --preset cta-head --size 64x64" QUIET "/bricks.exr");
+    expect(0, "render " DATA " --state " FOLDER "/bricks.exr" QUIET "/bricks-again.exr");
+    assert_true(same_files("bricks.exr", "bricks-again.exr"));
+    expect(0, "render " DATA " --state " FOLDER "/bricks.exr --gpu-memory 100" QUIET "/whole.exr");
+    assert_false(same_files("bricks.exr", "whole.exr"));
+}
+
 /* Sizes of raw input are in the picture. */
 static void raw_input_is_read_again(void **state) {
     (void)state;
@@ -186,15 +197,11 @@ static void a_picture_names_no_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_picture_is_drawn_again),
-        cmocka_unit_test(raw_input_is_read_again),
-        cmocka_unit_test(long_values_are_carried_whole),
-        cmocka_unit_test(each_frame_carries_its_own),
-        cmocka_unit_test(options_go_first),
-        cmocka_unit_test(what_cannot_be_is_refused),
-        cmocka_unit_test(other_data_are_told),
-        cmocka_unit_test(a_report_is_of_it),
-        cmocka_unit_test(a_picture_names_no_files),
+        cmocka_unit_test(a_picture_is_drawn_again),   cmocka_unit_test(memory_for_textures_is_carried),
+        cmocka_unit_test(raw_input_is_read_again),    cmocka_unit_test(long_values_are_carried_whole),
+        cmocka_unit_test(each_frame_carries_its_own), cmocka_unit_test(options_go_first),
+        cmocka_unit_test(what_cannot_be_is_refused),  cmocka_unit_test(other_data_are_told),
+        cmocka_unit_test(a_report_is_of_it),          cmocka_unit_test(a_picture_names_no_files),
     };
     return cmocka_run_group_tests(tests, opening, NULL);
 }
