@@ -76,8 +76,10 @@ static const ang_option table[] = {
         "anterior, posterior, left, right, superior, inferior (where the camera stands), or AZ,EL[,ROLL] in degrees; "
         "superior and inferior have anterior up, superior with the patient's right on the right: an axial slice as "
         "displayed, mirrored"),
-    REAL_OPTION("zoom", DRAWS | ANG_VERB_PRESETS, zoom, "X", 1e-3, 1e4, "1", NULL,
-                "magnification; at 1 all of the volume is inside the picture"),
+    REAL_OPTION("zoom", DRAWS, zoom, "X", 1e-3, 1e4, "1", NULL,
+                "magnification; at 1 all of the volume is inside the picture, however it is turned"),
+    REAL_OPTION("zoom", ANG_VERB_PRESETS, zoom, "X", 1e-3, 1e4, NULL, NULL,
+                "sheet: magnification; default: what fills the pictures with the volume as it is seen from there"),
     TEXT_OPTION("pan", DRAWS, pan, "X,Y", "0,0", "moves the camera to the right and up, in mm"),
     CHOICE_OPTION("projection", projection, "perspective|parallel", "perspective", "projection"),
     REAL_OPTION("fov", DRAWS, fov, "DEG", 0.01, 179, "30", "degrees", "vertical field of view in perspective"),
@@ -235,8 +237,9 @@ static bool store(const ang_option *spec, const char *text, ang_options *options
 
 static bool set_defaults(ang_verb verb, ang_options *options, ang_error *err) {
     *options = (ang_options){0};
-    for (int i = 0; i < table_length; i++) {
+    for (int i = 0; i < table_length; i++)
         if (table[i].type == REAL) *(double *)((char *)options + table[i].offset) = NAN;
+    for (int i = 0; i < table_length; i++) {
         if ((table[i].verbs & verb) && table[i].initial && !store(&table[i], table[i].initial, options, err))
             return false;
     }
@@ -288,6 +291,12 @@ bool ang_options_offer(ang_verb verb, ang_options *options, const char *name, co
         return options->given[i] || store(&table[i], text, options, err);
     }
     return ang_fail(err, ANG_USAGE, "there is no option --%s", name);
+}
+
+bool ang_options_given(ang_verb verb, const ang_options *options, const char *name) {
+    for (int i = 0; i < table_length; i++)
+        if ((table[i].verbs & verb) && strcmp(table[i].name, name) == 0) return options->given[i];
+    return false;
 }
 
 static void value_text(const ang_option *spec, const ang_options *options, char *text, size_t size) {

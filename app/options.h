@@ -47,6 +47,9 @@ bool ang_options_parse(ang_verb verb, int argc, char **argv, ang_options *option
  * Borrows `text`. False with ANG_USAGE where there is no such option or it cannot have that value. */
 bool ang_options_offer(ang_verb verb, ang_options *options, const char *name, const char *text, ang_error *err);
 
+/* Whether the command line gave the option of a verb that is called `name`. */
+bool ang_options_given(ang_verb verb, const ang_options *options, const char *name);
+
 /* Calls `take` with every option of a verb and its value as text, "" where it is not given: all that was asked for, for
  * those who must know whether it is what was asked for before. */
 void ang_options_each(ang_verb verb, const ang_options *options,

@@ -1,6 +1,7 @@
 /* angioscope presets: which there are, what is in one, and the way to other programs. */
 #include "app/presets.h"
 
+#include "app/unused.h"
 #include "app/verbs.h"
 #include "io/preset/preset.h"
 
@@ -60,6 +61,10 @@ static int show(const char *name, ang_error *err) {
 int ang_app_presets(const ang_options *options, ang_error *err) {
     const char *action = options->argument_count > 0 ? options->arguments[0] : "";
     int count = options->argument_count;
+    static const char *const actions[] = {"list", "show", "import", "export", "sheet"};
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++)
+        if (strcmp(action, actions[i]) == 0 && !ang_app_presets_options_check(action, options, err))
+            return (int)err->code;
     if (strcmp(action, "list") == 0 && count == 1) return list(ang_app_preset_folders(), err);
     if (strcmp(action, "list") == 0 && count == 2) return list_folder(options->arguments[1], err);
     if (strcmp(action, "show") == 0 && count == 2) return show(options->arguments[1], err);

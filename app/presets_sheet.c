@@ -7,6 +7,7 @@
 #include "io/image/sheet.h"
 #include "io/preset/preset.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,6 +27,17 @@ typedef struct sheet_run {
 } sheet_run;
 
 static const ang_method *const method = &ang_method_cpu;
+
+/* Where nobody says how large, as large as goes. */
+static bool fit(sheet_run *run, ang_error *err) {
+    int size[2];
+    ang_view view = ang_view_default;
+    if (isfinite(run->draw.zoom)) return true;
+    if (!ang_app_parse_dims("size", run->draw.size, 2, 65536, size, err) || !ang_view_parse(run->draw.view, &view, err))
+        return false;
+    run->draw.zoom = ang_view_fitting_zoom(run->volume, &view, size[0], size[1]);
+    return true;
+}
 
 static bool take_options(const ang_options *options, sheet_run *run, ang_error *err) {
     char *argv[2] = {(char *)"render", NULL};
@@ -92,7 +104,7 @@ static bool run_all(sheet_run *run, const ang_options *options, ang_error *err) 
     ang_load_options how = ang_app_load_options(&run->draw);
     run->volume = ang_load(options->arguments[1], &how, &run->report, ang_app_progress_sink(run->progress), err);
     run->renderer = run->volume ? method->create(NULL, run->volume, &ang_render_options_default, err) : NULL;
-    if (!run->renderer || !draw_all(run, err)) return false;
+    if (!run->renderer || !fit(run, err) || !draw_all(run, err)) return false;
     ang_image sheet;
     if (!ang_image_sheet(run->pictures, run->shown, run->count, &sheet, &run->warnings, err)) return false;
     bool written = ang_image_write(options->output, &sheet, black, err);

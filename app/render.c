@@ -4,6 +4,7 @@
 #include "app/render_json.h"
 #include "app/render_output.h"
 #include "app/sweep.h"
+#include "app/unused.h"
 #include "app/verbs.h"
 #include "core/base/clock.h"
 #include "core/base/memory.h"
@@ -428,8 +429,9 @@ static bool run_all(session *run, ang_error *err) {
                           err))
         return false;
     ang_state_matches(&run->stated.state, &run->report, &run->summary.warnings);
-    if (!open_renderer(run, err) ||
-        !ang_render_output_start(&run->output, options, &run->report, &run->summary.warnings, err) ||
+    if (!open_renderer(run, err)) return false;
+    ang_app_note_unused(options, &run->picture, run->method, &run->summary.warnings);
+    if (!ang_render_output_start(&run->output, options, &run->report, &run->summary.warnings, err) ||
         !render_all(run, err) || !time_frames(run, err) || !check_budget(run, err))
         return false;
     if (!options->json) return true;

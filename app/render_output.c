@@ -13,7 +13,7 @@
 #include <string.h>
 #include <strings.h>
 
-static bool is_capture(const char *path) {
+bool ang_render_output_is_capture(const char *path) {
     size_t length = strlen(path);
     return length > 4 && strcasecmp(path + length - 4, ".dcm") == 0;
 }
@@ -30,8 +30,13 @@ static void frame_path(const char *output, int frame, int frames, char *path, si
 static bool writable(const ang_options *options, ang_error *err) {
     int size[2];
     if (!ang_app_parse_dims("size", options->size, 2, 65536, size, err)) return false;
-    if (is_capture(options->output)) return ang_file_replaceable(options->output, err);
-    if (!ang_movie_is(options->output)) return ang_image_writable(options->output, err);
+    if (ang_render_output_is_capture(options->output)) return ang_file_replaceable(options->output, err);
+    if (!ang_movie_is(options->output)) {
+        ang_error own = {0};
+        if (ang_image_writable(options->output, &own)) return true;
+        bool unknown = own.code == ANG_USAGE && strstr(own.message, "extension");
+        return ang_fail(err, own.code, "%s%s", own.message, unknown ? "; or .dcm, .mp4 or .avi" : "");
+    }
     if (options->frames < 2)
         return ang_fail(err, ANG_USAGE,
                         "-o %s: a film needs --frames N, and --orbit or --sweep to show more than one picture",
@@ -68,7 +73,7 @@ bool ang_render_output_start(ang_render_output *output, const ang_options *optio
                              ang_notes *warnings, ang_error *err) {
     int size[2];
     char name[32];
-    *output = (ang_render_output){.options = options, .captures = is_capture(options->output)};
+    *output = (ang_render_output){.options = options, .captures = ang_render_output_is_capture(options->output)};
     if (!ang_app_parse_dims("size", options->size, 2, 65536, size, err)) return false;
     if (ang_movie_is(options->output)) {
         output->movie = ang_movie_open(options->output, size[0], size[1], options->fps, err);
@@ -122,7 +127,7 @@ void ang_render_output_clear(ang_render_output *output) {
 
 double ang_render_output_rounding(const ang_options *options, const double background[4]) {
     const char *path = options->output;
-    if (is_capture(path)) return 0.5;
+    if (ang_render_output_is_capture(path)) return 0.5;
     if (ang_movie_is(path)) return ang_movie_lossless(path) ? 0.5 : NAN;
     return ang_image_rounding(path, background);
 }

@@ -22,6 +22,9 @@ typedef struct ang_render_output {
  * ANG_USAGE, ANG_OUTPUT. To be asked before long work. */
 bool ang_render_output_check(const ang_options *options, ang_error *err);
 
+/* Whether `path` ends as a DICOM secondary capture does. */
+bool ang_render_output_is_capture(const char *path);
+
 /* Opens what is for all frames. Sentences about what was left out go to `warnings`. False with what is wrong. */
 bool ang_render_output_start(ang_render_output *output, const ang_options *options, const ang_load_report *report,
                              ang_notes *warnings, ang_error *err);

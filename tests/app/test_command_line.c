@@ -236,6 +236,29 @@ static void options_without_effect_are_said(void **state) {
     assert_null(strstr(output, "--iso"));
     expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --orbit 90 --iso 300 --quiet 2>&1");
     assert_string_equal(output, "");
+    static const char *const unused[][2] = {
+        {"--fps 30", "--fps has no effect but in films (.mp4, .avi)"},
+        {"--keep-phi", "--keep-phi has no effect but in DICOM (.dcm) and --json"},
+        {"--fov 50 --projection parallel", "--fov has no effect with --projection parallel"},
+        {"--step 0.3 --method reference", "--step has no effect with --method reference"},
+        {"--termination 0.5 --no-termination", "--termination has no effect beside --no-termination"},
+        {"--shading phong --mode mip", "--shading has no effect in mode mip"},
+        {"--classification prefix --mode iso --iso 300 --method slicing", "--classification has no effect in mode iso"},
+    };
+    for (size_t i = 0; i < sizeof unused / sizeof *unused; i++) {
+        char arguments[512];
+        snprintf(arguments, sizeof arguments, "render " PHANTOM " -o " TMP "/a.png --size 16x16 %s 2>&1", unused[i][0]);
+        expect(0, arguments);
+        if (!strstr(output, unused[i][1])) fail_msg("%s: %s", unused[i][0], output);
+    }
+    expect(0, "render " PHANTOM " -o " TMP "/a.png --size 16x16 --keep-phi --json - 2>&1");
+    assert_null(strstr(output, "no effect"));
+    expect(2, "render " PHANTOM " -o " TMP "/a.xyz 2>&1");
+    assert_non_null(strstr(output, ".pfm; or .dcm, .mp4 or .avi"));
+    expect(2, "presets list --view left 2>&1");
+    assert_non_null(strstr(output, "presets list: takes no --view, which is for: presets sheet"));
+    expect(2, "presets show ct-bone -o " TMP "/x.json 2>&1");
+    assert_false(exists(TMP "/x.json"));
 }
 
 static void no_gl_gives_five(void **state) {

@@ -135,7 +135,7 @@ static void colours_are_for_terminals(void **state) {
 static void the_sheet_shows_every_preset(void **state) {
     (void)state;
     expect(0, "phantom -q --dims 48x48x12 -o " FOLDER "/series");
-    expect(0, "presets sheet " FOLDER "/series -q --size 64x64 --view left -o " FOLDER "/sheet.png");
+    expect(0, "presets sheet " FOLDER "/series -q --size 64x64 --view left --zoom 1.5 -o " FOLDER "/sheet.png");
     expect(0, "presets list " ANG_PRESETS " | tail -n +2 | cut -d' ' -f1");
     char names[8192];
     snprintf(names, sizeof names, "CT-A\nCT-B\n%.8000s", output);
@@ -145,7 +145,8 @@ static void the_sheet_shows_every_preset(void **state) {
     for (char *name = strtok(names, "\n"); name; name = strtok(NULL, "\n"), i++) {
         char command[1024];
         snprintf(command, sizeof command,
-                 "render " FOLDER "/series -q --method cpu --size 64x64 --view left --preset %s -o " FOLDER "/one.png",
+                 "render " FOLDER "/series -q --method cpu --size 64x64 --view left --zoom 1.5 --preset %s -o " FOLDER
+                 "/one.png",
                  name);
         expect(0, command);
         ang_image one;
@@ -164,6 +165,27 @@ static void the_sheet_shows_every_preset(void **state) {
     expect(3, "presets sheet " FOLDER "/none -o " FOLDER "/sheet.png 2>&1");
 }
 
+/* Of the first picture: what is not black. */
+static int lit(const char *path) {
+    ang_image sheet;
+    int count = 0;
+    assert_true(ang_picture_read(path, &sheet, NULL));
+    for (int y = 4; y < 4 + 64; y++)
+        for (int x = 4; x < 4 + 64; x++) count += sheet.rgba[4 * ((size_t)y * (size_t)sheet.width + (size_t)x)] > 0;
+    ang_image_clear(&sheet);
+    return count;
+}
+
+/* The box of 48x48x12 voxels, as high as wide but seen from the left flat, fills the picture from side to side. */
+static void the_sheet_fills_its_pictures(void **state) {
+    (void)state;
+    expect(0, "phantom -q --dims 48x48x12 -o " FOLDER "/series");
+    expect(0, "presets sheet " FOLDER "/series -q --size 64x64 --view left -o " FOLDER "/large.png");
+    expect(0, "presets sheet " FOLDER "/series -q --size 64x64 --view left --zoom 1 -o " FOLDER "/small.png");
+    int large = lit(FOLDER "/large.png"), small = lit(FOLDER "/small.png");
+    if (large <= small * 5 / 4) fail_msg("%d pixels instead of %d", large, small);
+}
+
 int main(void) {
     if (system("rm -rf " FOLDER " && mkdir -p " FOLDER) != 0) return 1;
     setenv("XDG_CONFIG_HOME", FOLDER, 1);
@@ -173,6 +195,7 @@ int main(void) {
         cmocka_unit_test(exported_presets_come_back),
         cmocka_unit_test(colours_are_for_terminals),
         cmocka_unit_test(the_sheet_shows_every_preset),
+        cmocka_unit_test(the_sheet_fills_its_pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

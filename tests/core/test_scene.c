@@ -118,6 +118,39 @@ static void panning_moves_the_camera_in_its_plane(void **state) {
     ang_volume_free(volume);
 }
 
+/* The box's corners, taken to the picture: none is beyond its edges, and one is on them. */
+static void a_fitting_zoom_touches_the_edges(void **state) {
+    (void)state;
+    ang_volume *volume = body();
+    volume->affine.m[1][2] = 0.7; /* a gantry's tilt */
+    uint64_t seed = 3;
+    ang_vec3 lower, upper;
+    ang_volume_box(volume, &lower, &upper);
+    for (int k = 0; k < 200; k++) {
+        int width = 16 + (int)(200 * random_unit(&seed)), height = 16 + (int)(200 * random_unit(&seed));
+        ang_view view = {.azimuth_deg = 360 * random_unit(&seed),
+                         .elevation_deg = 180 * random_unit(&seed) - 90,
+                         .roll_deg = 360 * random_unit(&seed),
+                         .zoom = 7,
+                         .projection = k % 2 ? ANG_PARALLEL : ANG_PERSPECTIVE,
+                         .fov_deg = 5 + 120 * random_unit(&seed)};
+        view.zoom = ang_view_fitting_zoom(volume, &view, width, height);
+        ang_camera camera = ang_camera_for(volume, &view);
+        double farthest = 0;
+        for (int i = 0; i < 8; i++) {
+            ang_vec3 corner = {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};
+            ang_vec3 from = ang_vec3_sub(ang_mat4_point(&volume->affine, corner), camera.eye);
+            double half = camera.half_height, depth = ang_vec3_dot(from, camera.forward);
+            assert_true(depth > 0);
+            if (view.projection == ANG_PERSPECTIVE) half = depth * tan(view.fov_deg * (M_PI / 360));
+            farthest = fmax(farthest, fabs(ang_vec3_dot(from, camera.up)) / half);
+            farthest = fmax(farthest, fabs(ang_vec3_dot(from, camera.right)) / (half * width / height));
+        }
+        assert_close(farthest, 1, 1e-9);
+    }
+    ang_volume_free(volume);
+}
+
 static void bad_views_are_refused(void **state) {
     (void)state;
     static const char *const bad[] = {"front", "", "10", "10,", "10,95", "1,2,3,4", "1,2,x", "nan,0"};
@@ -306,6 +339,7 @@ int main(void) {
         cmocka_unit_test(standard_camera_is_that_of_the_design),
         cmocka_unit_test(turning_is_a_trackball),
         cmocka_unit_test(panning_moves_the_camera_in_its_plane),
+        cmocka_unit_test(a_fitting_zoom_touches_the_edges),
         cmocka_unit_test(bad_views_are_refused),
         cmocka_unit_test(scenes_that_cannot_be_drawn_are_refused),
         cmocka_unit_test(a_subset_has_the_rays_of_the_picture),
