@@ -7,22 +7,19 @@
 #include "app/view_load.h"
 #include "app/view_preferences.h"
 #include "app/view_presets.h"
+#include "app/view_saving.h"
 #include "app/view_state.h"
 #include "app/view_waiting.h"
 #include "io/font.h"
-#include "io/image/image_io.h"
 #include "io/load.h"
 #include "io/replace.h"
 #include "io/session/state.h"
 #include "ui/viewer.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-enum { MOST_FILES = 9999 };
 
 typedef struct view {
     const ang_options *options;
@@ -63,53 +60,18 @@ static ang_preset *preset_for(void *context, const ang_study *study, ang_error *
     return preset;
 }
 
-/* The path of a file that is not there yet. */
-static bool new_file(const view *view, const char *what, const char *ending, char *path, size_t size, ang_error *err) {
-    const char *folder = view->options->pictures;
-    char whole[PATH_MAX];
-    if (!ang_folder_make(folder, err)) return false;
-    if (realpath(folder, whole)) folder = whole;
-    for (int i = 1; i <= MOST_FILES; i++) {
-        char name[4096];
-        int used = snprintf(name, sizeof name, "%s/angioscope-%s-%04d.%s", strcmp(folder, "/") == 0 ? "" : folder, what,
-                            i, ending);
-        if (used < 0 || (size_t)used >= size) return ang_fail(err, ANG_OUTPUT, "%s: is too long a name", folder);
-        if (access(name, F_OK) == 0) continue;
-        memcpy(path, name, (size_t)used + 1);
-        return true;
-    }
-    return ang_fail(err, ANG_OUTPUT, "%s: holds %d files of this kind; name another folder with --pictures", folder,
-                    MOST_FILES);
-}
-
-static bool state_of(const view *view, const ang_viewer_state *shown, ang_state *state, ang_error *err) {
-    ang_load_options how = ang_app_load_options(view->options);
-    return ang_view_state_of(shown, &how, state, err);
-}
-
 static bool save_picture(void *context, const char *what, const ang_image *image, const ang_viewer_state *shown,
                          char *path, size_t size, ang_error *err) {
-    static const double black[4] = {0, 0, 0, 1};
-    ang_state state;
-    char *text = NULL;
-    if (!new_file(context, what, "png", path, size, err)) return false;
-    if (shown) {
-        if (!state_of(context, shown, &state, err)) return false;
-        text = ang_state_print(&state, ANG_VERSION, err);
-        ang_state_clear(&state);
-        if (!text) return false;
-    }
-    bool saved = ang_image_write_stated(path, image, black, text, err);
-    free(text);
-    return saved;
+    return ang_view_save_picture(((view *)context)->options, what, image, shown, path, size, err);
+}
+
+static bool save_capture(void *context, const char *what, const ang_image *image, const ang_study *study,
+                         const char *right, const char *down, char *path, size_t size, ang_error *err) {
+    return ang_view_save_capture(((view *)context)->options, what, image, study, right, down, path, size, err);
 }
 
 static bool save_state(void *context, const ang_viewer_state *shown, char *path, size_t size, ang_error *err) {
-    ang_state state;
-    if (!new_file(context, "state", "json", path, size, err) || !state_of(context, shown, &state, err)) return false;
-    bool saved = ang_state_write(path, &state, ANG_VERSION, err);
-    ang_state_clear(&state);
-    return saved;
+    return ang_view_save_state(((view *)context)->options, shown, path, size, err);
 }
 
 static bool is_state(void *context, const char *file) {
@@ -212,6 +174,7 @@ static bool run(view *view, ang_error *err) {
                             .folder = folder,
                             .preset_for = preset_for,
                             .save_picture = save_picture,
+                            .save_capture = save_capture,
                             .preset_place = preset_place,
                             .save_preset = save_preset,
                             .save_state = save_state,

@@ -173,6 +173,28 @@ bool ang_file_replace(const char *path, const void *data, size_t size, ang_error
     return fail(path, reason, err);
 }
 
+/* Gives `temporary` a name that nothing has. False with errno, EEXIST where something has it. */
+static bool rename_to_new(const char *temporary, const char *target) {
+    if (renameat2(AT_FDCWD, temporary, AT_FDCWD, target, RENAME_NOREPLACE) == 0) return true;
+    if (errno != EINVAL && errno != ENOSYS) return false; /* else file systems that cannot, such as NFS */
+    if (link(temporary, target) != 0) return false;
+    unlink(temporary);
+    return true;
+}
+
+bool ang_file_create(const char *path, const void *data, size_t size, bool *taken, ang_error *err) {
+    char temporary[PATH_MAX];
+    struct stat status;
+    *taken = lstat(path, &status) == 0;
+    if (*taken) return fail(path, EEXIST, err);
+    if (!write_beside(path, path, data, size, temporary, sizeof temporary, err)) return false;
+    if (rename_to_new(temporary, path)) return true;
+    int reason = errno;
+    *taken = reason == EEXIST;
+    unlink(temporary);
+    return fail(path, reason, err);
+}
+
 bool ang_file_prepare(const char *path, const void *data, size_t size, char *temporary, size_t room, ang_error *err) {
     char target[PATH_MAX];
     temporary[0] = '\0';

@@ -15,6 +15,10 @@
  * no regular file (a folder, a device) or may not be written to is refused. Thread safe. */
 bool ang_file_replace(const char *path, const void *data, size_t size, ang_error *err);
 
+/* The same to a `path` that is not there: where it is, or comes to be meanwhile, *taken becomes true and what is there
+ * stays. False with ANG_OUTPUT. Thread safe. */
+bool ang_file_create(const char *path, const void *data, size_t size, bool *taken, ang_error *err);
+
 /* Whether ang_file_replace could write to `path` as things stand: to be asked before long work. False with ANG_OUTPUT.
  * Thread safe. */
 bool ang_file_replaceable(const char *path, ang_error *err);

@@ -132,6 +132,10 @@ typedef struct ang_viewer_host {
     /* Writes a picture to a new file, whose path goes to `path`. With `state`, which repeats it; NULL: none does. */
     bool (*save_picture)(void *context, const char *what, const ang_image *image, const ang_viewer_state *state,
                          char *path, size_t size, ang_error *err);
+    /* The same as a DICOM secondary capture of `study`. `right`, `down`: where in the patient its edges point, as
+     * ang_letters_make says. */
+    bool (*save_capture)(void *context, const char *what, const ang_image *image, const ang_study *study,
+                         const char *right, const char *down, char *path, size_t size, ang_error *err);
     /* The same of the state alone. */
     bool (*save_state)(void *context, const ang_viewer_state *state, char *path, size_t size, ang_error *err);
     /* Whether a file is a saved state, or a picture that carries one, and no data. */

@@ -73,7 +73,7 @@ struct ang_viewer {
     ang_preset_dialog preset_dialog;
     bool comparing;        /* the 3D pane shows the preset as it is saved: */
     ang_document compared; /* what it then shows */
-    unsigned save_wanted;  /* pictures of panes, a bit for each ang_pane */
+    unsigned save_wanted;  /* pictures of panes, a bit for each ang_pane; as DICOM ANG_PANES bits above that */
     ang_shot shot;
     char saved[1024];
     char message[1100]; /* on the status line */

@@ -43,7 +43,7 @@ static bool shrink(const ang_image *image, int factor, ang_image *out) {
 static bool put(FILE *out, const ang_image *image, const double background[4], const char *alt, const char *class) {
     unsigned char *data = NULL;
     size_t size = 0;
-    if (!ang_image_png(image, background, &data, &size, NULL)) return false;
+    if (!ang_image_png(image, background, NULL, &data, &size, NULL)) return false;
     fprintf(out, "<img class=\"%s\" alt=\"%s\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", class, alt,
             image->width, image->height);
     put_base64(out, data, size);
@@ -99,7 +99,7 @@ void ang_report_can_picture(ang_report *report, bool *pictures, bool *heat) {
     unsigned char *data = NULL;
     size_t size = 0;
     ang_error err = {0};
-    *pictures = ang_image_png(&pixel, opaque_black, &data, &size, &err);
+    *pictures = ang_image_png(&pixel, opaque_black, NULL, &data, &size, &err);
     free(data);
     if (!*pictures) ang_notes_add(&report->notes, "there are no pictures: %s", err.message);
     *heat = *pictures && ang_heat_image(&value, 1, 1, 1, &map, &err);

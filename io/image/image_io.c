@@ -150,10 +150,10 @@ bool ang_image_write_stated(const char *path, const ang_image *image, const doub
     return whole;
 }
 
-bool ang_image_png(const ang_image *image, const double background[4], unsigned char **data, size_t *size,
-                   ang_error *err) {
+bool ang_image_png(const ang_image *image, const double background[4], const char *state, unsigned char **data,
+                   size_t *size, ang_error *err) {
     ang_bytes bytes = {0};
-    bool whole = encode_bytes(PNG, image, background, NULL, &bytes, err);
+    bool whole = refuse("a picture.png", PNG, false, err) && encode_bytes(PNG, image, background, state, &bytes, err);
     *data = bytes.data;
     *size = bytes.size;
     return whole;

@@ -32,10 +32,10 @@ char *ang_image_state(const char *path, ang_error *err);
  * colour and alpha are both rounded (unassociated alpha over a background that is not opaque), 0 for floats. */
 double ang_image_rounding(const char *path, const double background[4]);
 
-/* The bytes of the PNG file that ang_image_write would write, into *data (free with free()). False with
- * ANG_LIMIT. Thread safe. */
-bool ang_image_png(const ang_image *image, const double background[4], unsigned char **data, size_t *size,
-                   ang_error *err);
+/* The bytes of the PNG file that ang_image_write_stated would write, into *data (free with free()). False with
+ * ANG_LIMIT, ANG_USAGE. Thread safe. */
+bool ang_image_png(const ang_image *image, const double background[4], const char *state, unsigned char **data,
+                   size_t *size, ang_error *err);
 
 /* The picture as 8 bits a channel, red, green and blue, rows from the top, into *rgb (free with free()): what is in the
  * .png, and where that is not opaque over black. False with ANG_LIMIT. Thread safe. */

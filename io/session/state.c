@@ -172,13 +172,17 @@ char *ang_state_print(const ang_state *state, const char *program_version, ang_e
     return text;
 }
 
-bool ang_state_write(const char *file, const ang_state *state, const char *program_version, ang_error *err) {
+char *ang_state_text(const ang_state *state, const char *program_version, const char *file, ang_error *err) {
     cJSON *root = ang_state_json(state, program_version, file, true, err);
-    if (!root) return false;
-    char *text = cJSON_Print(root);
+    char *text = root ? cJSON_Print(root) : NULL;
+    if (root && !text) ang_fail(err, ANG_LIMIT, "%s: no memory to write it", file);
     cJSON_Delete(root);
-    bool written = text ? ang_file_replace(file, text, strlen(text), err)
-                        : ang_fail(err, ANG_LIMIT, "%s: no memory to write it", file);
+    return text;
+}
+
+bool ang_state_write(const char *file, const ang_state *state, const char *program_version, ang_error *err) {
+    char *text = ang_state_text(state, program_version, file, err);
+    bool written = text && ang_file_replace(file, text, strlen(text), err);
     free(text);
     return written;
 }

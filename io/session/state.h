@@ -77,7 +77,9 @@ cJSON *ang_state_json(const ang_state *state, const char *program_version, const
 /* The picture's part of that, without the path and what is of the window, as text in one line: to go into a picture.
  * NULL with ANG_LIMIT. Free with free(). */
 char *ang_state_print(const ang_state *state, const char *program_version, ang_error *err);
-/* Replaces `file` by the state (io/replace.h). */
+/* What a state's `file` holds, as text. NULL with ANG_LIMIT. Free with free(). */
+char *ang_state_text(const ang_state *state, const char *program_version, const char *file, ang_error *err);
+/* Replaces `file` by that (io/replace.h). */
 bool ang_state_write(const char *file, const ang_state *state, const char *program_version, ang_error *err);
 
 /* Reads a state, from JSON or from a picture (.png, .exr) that carries one. Unknown fields are refused but for those in

@@ -303,7 +303,7 @@ static void a_png_in_memory_is_that_of_the_file(void **state) {
     static unsigned char file_data[1 << 16];
     char path[600];
     snprintf(path, sizeof path, "%s/memory.png", folder);
-    assert_true(ang_image_png(&image, black, &data, &size, &err) && ang_image_write(path, &image, black, &err));
+    assert_true(ang_image_png(&image, black, NULL, &data, &size, &err) && ang_image_write(path, &image, black, &err));
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
     assert_int_equal(fread(file_data, 1, sizeof file_data, file), size);

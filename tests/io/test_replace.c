@@ -256,6 +256,47 @@ static void of_two_that_write_one_wins(void **state) {
     print_message("a reader saw files %#x\n", (unsigned)seen);
 }
 
+/* Eight that take the next free number at the same time: each has files of its own, whole. */
+static void new_files_have_one_writer_each(void **state) {
+    (void)state;
+    enum { writers = 8, each = 20, size = 5000 };
+    pid_t writer[writers];
+    char path[256];
+    for (int w = 0; w < writers; w++) {
+        writer[w] = fork();
+        assert_true(writer[w] >= 0);
+        if (writer[w] > 0) continue;
+        char text[size];
+        memset(text, 'a' + w, size);
+        for (int n = 0, made = 0; made < each; n++) {
+            bool taken = false;
+            snprintf(path, sizeof path, FOLDER "/new-%04d", n);
+            made += ang_file_create(path, text, size, &taken, NULL);
+        }
+        _exit(0);
+    }
+    for (int w = 0; w < writers; w++) {
+        int status = 0;
+        assert_int_equal(waitpid(writer[w], &status, 0), writer[w]);
+        assert_int_equal(status, 0);
+    }
+    int count[writers] = {0};
+    for (int n = 0; n < writers * each; n++) {
+        snprintf(path, sizeof path, FOLDER "/new-%04d", n);
+        char letter = letter_of(path, size);
+        assert_true(letter >= 'a' && letter < 'a' + writers);
+        count[letter - 'a']++;
+    }
+    for (int w = 0; w < writers; w++) assert_int_equal(count[w], each);
+    assert_int_equal(hidden_files(FOLDER), 0);
+    bool taken = false;
+    assert_int_equal(symlink("nowhere", FOLDER "/link"), 0);
+    assert_false(ang_file_create(FOLDER "/link", "x", 1, &taken, NULL));
+    assert_true(taken);
+    assert_false(ang_file_create(FOLDER "/none/x", "x", 1, &taken, NULL));
+    assert_false(taken);
+}
+
 static void files_of_others_are_renamed_whole(void **state) {
     (void)state;
     char temporary[4096];
@@ -298,6 +339,7 @@ int main(void) {
         cmocka_unit_test_setup(forbidden_folders_and_files_are_told, clean),
         cmocka_unit_test_setup(killed_in_the_middle_it_is_the_old_or_the_new, clean),
         cmocka_unit_test_setup(of_two_that_write_one_wins, clean),
+        cmocka_unit_test_setup(new_files_have_one_writer_each, clean),
         cmocka_unit_test_setup(files_of_others_are_renamed_whole, clean),
         cmocka_unit_test(leftovers_are_known_by_name),
     };

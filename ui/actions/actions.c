@@ -132,6 +132,8 @@ static const ang_action actions[] = {
      false, has_source, is_on},
     {"File", "Save picture of the pane", "the one with the bright frame; refined, without writing on it", 'S', C,
      ang_save_pane_ask, 0, true, is_ready, NULL},
+    {"File", "Save pane as DICOM", "a secondary capture; says who the patient is only with --keep-phi", 'D', C,
+     ang_save_pane_ask, 1, false, is_ready, NULL},
     {"File", "Save pane as seen", "with letters, bar and measures", ANG_KEY_F12, 0, ang_shot_ask_pane, 0, false,
      is_ready, NULL},
     {"File", "Save picture of the window", NULL, 'S', C | S, ang_shot_ask_window, 0, false, NULL, NULL},

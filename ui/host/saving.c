@@ -1,6 +1,7 @@
 #include "ui/host/saving.h"
 
 #include "core/base/memory.h"
+#include "core/scene/annotation.h"
 #include "ui/viewer_private.h"
 
 #include <stdlib.h>
@@ -88,33 +89,45 @@ void ang_shot_take(ang_viewer *viewer) {
     shot->wanted &= ~(1u << shot->pane);
 }
 
-static void save_pane(ang_viewer *viewer, ang_pane pane) {
+static void save_capture(ang_viewer *viewer, ang_pane pane, const ang_image *image) {
     ang_error err = {0};
-    if (pane == ANG_PANE_VOLUME) {
-        if (viewer->volume.failure[0])
-            ang_viewer_say(viewer, true, "%s", viewer->volume.failure);
-        else
-            save(viewer, "volume", &viewer->volume.image, true, &err);
-        return;
-    }
+    const ang_camera *camera = &viewer->volume.scene.camera;
+    bool volume = pane == ANG_PANE_VOLUME;
+    const ang_reslice_plane *plane = volume ? NULL : &viewer->slice[pane].plane;
+    ang_letters right = ang_letters_make(volume ? camera->right : plane->step_x);
+    ang_letters down = ang_letters_make(volume ? ang_vec3_scale(camera->up, -1) : plane->step_y);
+    const char *what = volume ? "volume" : ang_orientation_name((ang_orientation)pane);
+    bool done = viewer->host->save_capture(viewer->host->context, what, image, &viewer->study, right.text, down.text,
+                                           viewer->saved, sizeof viewer->saved, &err);
+    ang_say_saved(viewer, done, &err);
+}
+
+static void save_pane(ang_viewer *viewer, ang_pane pane, bool as_dicom) {
+    ang_error err = {0};
     ang_image image = {0};
-    if (ang_slice_image(viewer, (ang_orientation)pane, &image, &err))
-        save(viewer, ang_orientation_name((ang_orientation)pane), &image, false, &err);
-    else
+    bool volume = pane == ANG_PANE_VOLUME;
+    const ang_image *shown = volume ? &viewer->volume.image : &image;
+    if (volume && viewer->volume.failure[0])
+        ang_viewer_say(viewer, true, "%s", viewer->volume.failure);
+    else if (!volume && !ang_slice_image(viewer, (ang_orientation)pane, &image, &err))
         ang_viewer_say(viewer, true, "%s", err.message);
+    else if (as_dicom)
+        save_capture(viewer, pane, shown);
+    else
+        save(viewer, volume ? "volume" : ang_orientation_name((ang_orientation)pane), shown, volume, &err);
     ang_image_clear(&image);
 }
 
 void ang_save_panes(ang_viewer *viewer) {
-    for (int pane = 0; pane < ANG_PANES; pane++) {
-        if (!(viewer->save_wanted >> pane & 1)) continue;
+    for (int bit = 0; bit < 2 * ANG_PANES; bit++) {
+        ang_pane pane = (ang_pane)(bit % ANG_PANES);
+        if (!(viewer->save_wanted >> bit & 1)) continue;
         if (pane == ANG_PANE_VOLUME && !viewer->volume.refined) continue;
-        save_pane(viewer, (ang_pane)pane);
-        viewer->save_wanted &= ~(1u << pane);
+        save_pane(viewer, pane, bit >= ANG_PANES);
+        viewer->save_wanted &= ~(1u << bit);
     }
 }
 
-void ang_save_pane_ask(ang_viewer *viewer, int argument) {
-    (void)argument;
-    viewer->save_wanted |= 1u << viewer->focus.pane;
+void ang_save_pane_ask(ang_viewer *viewer, int as_dicom) {
+    viewer->save_wanted |= 1u << (viewer->focus.pane + (as_dicom ? ANG_PANES : 0));
 }

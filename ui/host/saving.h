@@ -25,7 +25,7 @@ void ang_shot_take(ang_viewer *viewer); /* after it has been painted */
 void ang_save_panes(ang_viewer *viewer);
 
 /* Actions, on the pane that keys apply to. */
-void ang_save_pane_ask(ang_viewer *viewer, int argument); /* its picture, without writing on it */
+void ang_save_pane_ask(ang_viewer *viewer, int as_dicom); /* its picture, without writing on it */
 /* A picture of the pane or window as it is seen, writing included: of the next frame without a menu, with the volume
  * once it is refined. */
 void ang_shot_ask_pane(ang_viewer *viewer, int argument);
