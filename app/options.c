@@ -79,7 +79,7 @@ static const ang_option table[] = {
     REAL_OPTION("zoom", DRAWS, zoom, "X", 1e-3, 1e4, "1", NULL,
                 "magnification; at 1 all of the volume is inside the picture, however it is turned"),
     REAL_OPTION("zoom", ANG_VERB_PRESETS, zoom, "X", 1e-3, 1e4, NULL, NULL,
-                "sheet: magnification; default: what fills the pictures with the volume as it is seen from there"),
+                "sheet: magnification; default: what fills the pictures with what is no air in the volume"),
     TEXT_OPTION("pan", DRAWS, pan, "X,Y", "0,0", "moves the camera to the right and up, in mm"),
     CHOICE_OPTION("projection", projection, "perspective|parallel", "perspective", "projection"),
     REAL_OPTION("fov", DRAWS, fov, "DEG", 0.01, 179, "30", "degrees", "vertical field of view in perspective"),

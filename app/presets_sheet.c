@@ -3,6 +3,7 @@
 #include "app/presets.h"
 #include "app/verbs.h"
 #include "core/render/method.h"
+#include "core/scene/fit.h"
 #include "io/image/image_io.h"
 #include "io/image/sheet.h"
 #include "io/preset/preset.h"
@@ -35,7 +36,12 @@ static bool fit(sheet_run *run, ang_error *err) {
     if (isfinite(run->draw.zoom)) return true;
     if (!ang_app_parse_dims("size", run->draw.size, 2, 65536, size, err) || !ang_view_parse(run->draw.view, &view, err))
         return false;
-    run->draw.zoom = ang_view_fitting_zoom(run->volume, &view, size[0], size[1]);
+    ang_vec3 lower, upper;
+    if (ang_load_report_hounsfield(&run->report))
+        ang_volume_body_box(run->volume, &lower, &upper);
+    else
+        ang_volume_box(run->volume, &lower, &upper);
+    run->draw.zoom = ang_view_fitting_zoom(run->volume, lower, upper, &view, size[0], size[1]);
     return true;
 }
 

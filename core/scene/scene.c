@@ -142,25 +142,6 @@ ang_camera ang_camera_for(const ang_volume *volume, const ang_view *view) {
     return camera;
 }
 
-double ang_view_fitting_zoom(const ang_volume *volume, const ang_view *view, int width, int height) {
-    ang_view whole = *view;
-    whole.zoom = 1;
-    whole.pan_mm[0] = whole.pan_mm[1] = 0;
-    ang_camera camera = ang_camera_for(volume, &whole);
-    bool perspective = view->projection == ANG_PERSPECTIVE;
-    double slope = perspective ? tan(view->fov_deg * (M_PI / 360)) : 1, aspect = (double)width / height, least = 0;
-    ang_vec3 lower, upper, centre = ang_volume_centre(volume);
-    ang_volume_box(volume, &lower, &upper);
-    for (int i = 0; i < 8; i++) {
-        ang_vec3 corner = {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};
-        ang_vec3 from = ang_vec3_sub(ang_mat4_point(&volume->affine, corner), centre);
-        double across = fabs(ang_vec3_dot(from, camera.right)) / aspect, up = fabs(ang_vec3_dot(from, camera.up));
-        double behind = perspective ? ang_vec3_dot(from, camera.forward) : 0; /* of the centre */
-        least = fmax(least, fmax(across, up) / slope - behind);
-    }
-    return least > 0 ? (perspective ? camera.focus_mm : camera.half_height) / least : 1;
-}
-
 ang_scene ang_scene_default(const ang_volume *volume) {
     ang_scene scene = {.width = 512,
                        .height = 512,

@@ -56,10 +56,6 @@ bool ang_view_parse(const char *text, ang_view *view, ang_error *err);
 /* The camera of DESIGN.md for this view of this volume. */
 ang_camera ang_camera_for(const ang_volume *volume, const ang_view *view);
 
-/* The zoom at which all of the volume's box, seen as `view` stands, just goes into a picture of `width` x `height`
- * pixels; view->zoom and view->pan_mm do not count. Pure. */
-double ang_view_fitting_zoom(const ang_volume *volume, const ang_view *view, int width, int height);
-
 /* Turns the camera about the volume as a trackball under the hand would: by `right_deg` about the picture's vertical
  * (what is in front moves to the right) and by `down_deg` about its horizontal (what is in front moves down). Angles
  * come out in (-180, 180], elevation in [-90, 90]. Pure. */

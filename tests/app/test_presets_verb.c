@@ -176,14 +176,14 @@ static int lit(const char *path) {
     return count;
 }
 
-/* The box of 48x48x12 voxels, as high as wide but seen from the left flat, fills the picture from side to side. */
+/* A head with air around it is larger than at 1, where all of the box is in the picture however it is turned. */
 static void the_sheet_fills_its_pictures(void **state) {
     (void)state;
     expect(0, "phantom -q --dims 48x48x12 -o " FOLDER "/series");
     expect(0, "presets sheet " FOLDER "/series -q --size 64x64 --view left -o " FOLDER "/large.png");
     expect(0, "presets sheet " FOLDER "/series -q --size 64x64 --view left --zoom 1 -o " FOLDER "/small.png");
     int large = lit(FOLDER "/large.png"), small = lit(FOLDER "/small.png");
-    if (large <= small * 5 / 4) fail_msg("%d pixels instead of %d", large, small);
+    if (large <= small * 3 / 2) fail_msg("%d pixels instead of %d", large, small);
 }
 
 int main(void) {

@@ -2,6 +2,7 @@
 #include "tests/core/fixtures.h"
 
 #include "core/render/method.h"
+#include "core/scene/fit.h"
 #include "core/scene/image.h"
 
 static double flat_value(int x, int y, int z) {
@@ -125,7 +126,18 @@ static void a_fitting_zoom_touches_the_edges(void **state) {
     volume->affine.m[1][2] = 0.7; /* a gantry's tilt */
     uint64_t seed = 3;
     ang_vec3 lower, upper;
-    ang_volume_box(volume, &lower, &upper);
+    ang_volume_body_box(volume, &lower, &upper); /* all of one value: the whole box */
+    check_direction(lower, 0, 0, 0);
+    check_direction(upper, 100, 80, 60);
+    for (size_t i = 0; i < ang_volume_count(volume); i++) volume->data[i] = 0;
+    volume->intercept = -1000;
+    volume->slope = 1;
+    volume->data[10 + 101 * (20 + 81 * 30)] = 501;
+    volume->data[90 + 101 * (15 + 81 * 30)] = 2000;
+    volume->data[3 + 101 * (4 + 81 * 5)] = 500; /* air still */
+    ang_volume_body_box(volume, &lower, &upper);
+    check_direction(lower, 10, 15, 30);
+    check_direction(upper, 90, 20, 30);
     for (int k = 0; k < 200; k++) {
         int width = 16 + (int)(200 * random_unit(&seed)), height = 16 + (int)(200 * random_unit(&seed));
         ang_view view = {.azimuth_deg = 360 * random_unit(&seed),
@@ -134,7 +146,7 @@ static void a_fitting_zoom_touches_the_edges(void **state) {
                          .zoom = 7,
                          .projection = k % 2 ? ANG_PARALLEL : ANG_PERSPECTIVE,
                          .fov_deg = 5 + 120 * random_unit(&seed)};
-        view.zoom = ang_view_fitting_zoom(volume, &view, width, height);
+        view.zoom = ang_view_fitting_zoom(volume, lower, upper, &view, width, height);
         ang_camera camera = ang_camera_for(volume, &view);
         double farthest = 0;
         for (int i = 0; i < 8; i++) {
