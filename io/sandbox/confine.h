@@ -6,7 +6,7 @@
 
 /* Gives up for good all but memory, time and the two descriptors of protocol.h: no files, no network, no processes, no
  * privileges. A call that is not allowed ends the process with SIGSYS. False where the kernel has no such filter, or
- * where the process is watched by AddressSanitizer, whose reports need more; files stay refused by a limit then. */
+ * where the process is watched by AddressSanitizer, whose reports need more. */
 bool ang_confine(void);
 
 #endif
