@@ -2,15 +2,32 @@
 
 #include <string.h>
 
-/* Bytes, not fields: padding that differs only costs a drawing. The transfer function is compared by its contents;
- * objects may have moved. */
+/* None of these fields holds padding, whose bytes nobody sets. */
+#define SAME(field) (memcmp(&a->field, &b->field, sizeof a->field) == 0)
+
+static bool same_camera(const ang_camera *a, const ang_camera *b) {
+    return SAME(eye) && SAME(forward) && SAME(right) && SAME(up) && SAME(projection) && SAME(fov_deg) &&
+           SAME(half_height) && SAME(near_mm) && SAME(focus_mm);
+}
+
+/* But for what the scenes borrow. */
+static bool same_scene(const ang_scene *a, const ang_scene *b) {
+    return SAME(width) && SAME(height) && SAME(sampling) && same_camera(&a->camera, &b->camera) && SAME(clip_lower) &&
+           SAME(clip_upper) && SAME(clip_plane) && SAME(mode) && SAME(shading) && SAME(phong) && SAME(iso_hu) &&
+           SAME(window_centre) && SAME(window_width) && SAME(background);
+}
+
+static bool same_options(const ang_render_options *a, const ang_render_options *b) {
+    return SAME(step_voxels) && SAME(termination) && SAME(manual_filter) && SAME(no_skip) && SAME(proxy) &&
+           SAME(bricks) && SAME(pass_steps) && SAME(separate_passes) && SAME(show_bricks) && SAME(gpu_memory) &&
+           SAME(gradients) && SAME(skipping) && SAME(quads) && SAME(count_shown) && SAME(forced) && SAME(threads) &&
+           SAME(classification);
+}
+
+/* The transfer function is compared by its contents; objects may have moved. */
 static bool is_same(const ang_kept *kept, const ang_scene *scene, const ang_render_options *options) {
     if (!kept->valid || scene->objects || !scene->transfer != !kept->transfer) return false;
-    ang_scene now, before;
-    memcpy(&now, scene, sizeof now);
-    memcpy(&before, &kept->scene, sizeof before);
-    now.transfer = before.transfer = NULL;
-    return memcmp(&now, &before, sizeof now) == 0 && memcmp(options, &kept->options, sizeof *options) == 0 &&
+    return same_scene(scene, &kept->scene) && same_options(options, &kept->options) &&
            (!kept->transfer || ang_transfer_same(scene->transfer, kept->transfer));
 }
 
@@ -26,8 +43,8 @@ static void keep(ang_kept *kept, const ang_scene *scene, const ang_render_option
     memcpy(kept->image.rgba, image->rgba, image_bytes(image));
     if (scene->transfer) kept->transfer = ang_transfer_shifted(scene->transfer, 0, NULL);
     kept->valid = !scene->transfer || kept->transfer;
-    memcpy(&kept->scene, scene, sizeof *scene);
-    memcpy(&kept->options, options, sizeof *options);
+    kept->scene = *scene;
+    kept->options = *options;
     kept->counted = stats != NULL;
     if (stats) kept->stats = *stats;
     kept->stats.counts = NULL;

@@ -270,6 +270,46 @@ static void same_pictures_are_kept(void **state) {
     ang_volume_free(volume);
 }
 
+static bool draw_nothing(ang_renderer *renderer, const ang_scene *scene, const ang_render_options *options,
+                         ang_image *image, ang_frame_stats *stats, const ang_progress *progress, ang_error *err) {
+    (void)renderer, (void)scene, (void)options, (void)image, (void)stats, (void)progress, (void)err;
+    return true;
+}
+
+/* Of how many of the `size` bytes at `bytes`, part of the scene or the options, a change is not noticed. */
+static int unnoticed(void *bytes, size_t size, const ang_scene *scene, const ang_render_options *options) {
+    static const ang_method nothing = {.render = draw_nothing};
+    ang_kept kept = {0};
+    ang_image image;
+    assert_true(ang_image_create(&image, 2, 2, NULL));
+    int found = 0;
+    for (size_t i = 0; i < size; i++) {
+        unsigned char *byte = (unsigned char *)bytes + i;
+        assert_true(ang_kept_render(&kept, &nothing, NULL, scene, options, &image, NULL, NULL, NULL));
+        *byte ^= 1; /* true becomes false */
+        assert_true(ang_kept_render(&kept, &nothing, NULL, scene, options, &image, NULL, NULL, NULL));
+        found += kept.given;
+        *byte ^= 1;
+    }
+    ang_kept_clear(&kept);
+    ang_image_clear(&image);
+    return found;
+}
+
+/* Whatever field changes, the picture is drawn again; bytes between the fields mean nothing. */
+static void each_field_counts(void **state) {
+    (void)state;
+    enum { SCENE_PADDING = 4 + 4, OPTIONS_PADDING = 2 + 6 + 3 + 4 }; /* where a pointer has 8 bytes */
+    if (sizeof(void *) != 8) skip();
+    ang_scene scene = {.width = 2, .height = 2};
+    ang_render_options options = usual;
+    size_t borrowed = offsetof(ang_scene, transfer), after = offsetof(ang_scene, background);
+    assert_int_equal(after - borrowed, sizeof scene.transfer + sizeof scene.objects);
+    int before = unnoticed(&scene, borrowed, &scene, &options);
+    assert_int_equal(before + unnoticed((char *)&scene + after, sizeof scene - after, &scene, &options), SCENE_PADDING);
+    assert_int_equal(unnoticed(&options, sizeof options, &scene, &options), OPTIONS_PADDING);
+}
+
 int main(void) {
     /* Many programs: on one backend, the others differ in how they open. */
     const struct CMUnitTest all[] = {cmocka_unit_test(forced_parts_change_nothing)};
@@ -278,6 +318,7 @@ int main(void) {
         cmocka_unit_test(slabs_follow_the_transfer_function),
         cmocka_unit_test(boxes_are_uploaded_whole),
         cmocka_unit_test(same_pictures_are_kept),
+        cmocka_unit_test(each_field_counts),
     };
     return failed + run_on_backends(tests);
 }
