@@ -14,13 +14,13 @@ KEYS = (["w", "c", "s", "p", "m", "x"] * 3 + list("123456789oritbhnvke") + ["plu
          "alt+i", "alt+k", "alt+l", "alt+p", "alt+r", "alt+s", "alt+x", "alt+Left", "alt+Right", "alt+Up", "alt+Down",
          "shift+Up", "shift+Left", "ctrl+Right", "ctrl+Down", "ctrl+shift+Left", "ctrl+shift+Down", "ctrl+0", "ctrl+a",
          "ctrl+b", "ctrl+c", "ctrl+r", "ctrl+s", "ctrl+shift+s", "ctrl+x", "ctrl+y", "ctrl+z", "ctrl+shift+z",
-         "ctrl+alt+s"])
+         "ctrl+alt+s", "ctrl+bracketleft", "ctrl+bracketright", "ctrl+bracketright"])
 COMMANDS = ["light theme", "crosshair", "clip", "whole", "delete all", "measures", "parallel", "voxels", "cine", "slab",
             "bone", "lung", "cta", "reset", "planes", "preset", "large", "text", "zz", "curve", "range"]
 
 
 def typed(text):
-    names = {" ": "space", "/": "slash", "-": "minus", "~": "asciitilde", "_": "underscore"}
+    names = {" ": "space", "/": "slash", "-": "minus", "~": "asciitilde", "_": "underscore", ".": "period"}
     return ["key " + names.get(letter, letter) for letter in text]
 
 
@@ -31,7 +31,8 @@ class Hands:
         self.kinds = [(self.drag, 22), (self.move, 14), (self.click, 12), (self.wheel, 10), (self.key, 22),
                       (self.curve, 8), (self.measure, 4), (self.cut, 4), (self.turn_planes, 3), (self.gap, 2),
                       (self.panel, 4), (self.palette, 3), (self.menus, 2), (self.open_files, 1), (self.series, 1),
-                      (self.report, 1), (self.save_preset, 1), (self.compare, 2), (self.undo, 3), (self.cine, 1)]
+                      (self.report, 1), (self.save_preset, 1), (self.import_preset, 1), (self.compare, 2), (self.undo, 3),
+                      (self.cine, 1)]
 
     def events(self):
         """Of one thing that a hand does; what it holds it lets go, except a button now and then."""
@@ -158,6 +159,11 @@ class Hands:
         return ["key ctrl+p", "key ctrl+a"] + typed(name) + ["key " + k for k in end] + [
             "key Escape"] * 2
 
+    def import_preset(self):
+        path = self.random.choice([self.viewer.work + "/bone.vp", self.viewer.input, "nothing", ""])
+        events = ["key ctrl+k", *typed("import"), "key Return", "sleep 0.2", "key ctrl+a", *typed(path)]
+        return events + ["key " + self.random.choice(["Return", "Return", "Escape"]), "key Escape", "key Escape"]
+
     def compare(self):
         return ["keydown d"] + self.random.choice([self.wheel, self.move, self.click, self.undo])() + ["keyup d"]
 
@@ -195,6 +201,7 @@ def fail(viewer, what):
 def soak(viewer, count, seed, patience=300):
     """Memory may grow in the first third, where caches fill; after that by 32 MB at most."""
     hands, done, quits, used = Hands(seed, viewer), 0, 0, []
+    subprocess.run([viewer.name, "presets", "export", "ct-bone", "-o", viewer.work + "/bone.vp"], check=True)
     viewer.refined()
     print(f"{0:6d} events   {viewer.memory_mb():.0f} MB", flush=True)
     while done < count:
