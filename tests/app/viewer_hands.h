@@ -130,24 +130,28 @@ static inline const char *text_at(cJSON *root, const char *path) {
     return text ? text : "";
 }
 
+enum { PATIENCE = 600 }; /* naps of 50 ms: a build with sanitizers on a busy machine may need most of them */
+
 /* Waits until a number of the state is as expected; the state is then as well refined. */
 static inline void expect_number(const char *path, double expected, double tolerance) {
     double value = NAN;
-    for (int i = 0; i < 200; i++) {
+    bool refined = false;
+    for (int i = 0; i < PATIENCE; i++) {
         cJSON *state = read_state();
         value = number_at(state, path);
-        bool refined = cJSON_IsTrue(field(state, "refined"));
+        refined = cJSON_IsTrue(field(state, "refined"));
         cJSON_Delete(state);
         if (fabs(value - expected) <= tolerance && refined) return;
         nap(50);
     }
-    fail_msg("%s is %.10g, not %.10g within %g", path, value, expected, tolerance);
+    fail_msg("%s is %.17g, not %.17g within %g%s", path, value, expected, tolerance,
+             refined ? "" : "; it is not refined");
 }
 
 /* The same for a text, refined or not. */
 static inline void expect_text(const char *path, const char *expected) {
     char value[256] = "";
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < PATIENCE; i++) {
         cJSON *state = read_state();
         snprintf(value, sizeof value, "%s", text_at(state, path));
         cJSON_Delete(state);
@@ -159,7 +163,7 @@ static inline void expect_text(const char *path, const char *expected) {
 
 /* The same for what is true or false. */
 static inline void expect_flag(const char *path, bool expected) {
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < PATIENCE; i++) {
         cJSON *state = read_state();
         bool is = cJSON_IsTrue(field(state, path));
         cJSON_Delete(state);
@@ -307,7 +311,7 @@ static inline double processor_time(void) {
 /* The exit code of the viewer, which was told to end; the next one may be started. */
 static inline int wait_for_end(void) {
     int status = 0;
-    for (int i = 0; i < 100; i++) {
+    for (int i = 0; i < PATIENCE; i++) {
         if (waitpid(viewer, &status, WNOHANG) == viewer) {
             viewer = 0;
             return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
