@@ -450,6 +450,36 @@ static void names_are_left_out_of_saved_windows(void **state) {
     assert_close(brightest_of_name(PICTURES "/angioscope-window-0004.png"), 0, 0.02);
 }
 
+/* What lies under the crosshair stays, where that snaps to slices far apart too. */
+static void planes_along_the_patient_leave_long_voxels_in_the_middle(void **state) {
+    (void)state;
+    need_window();
+    hands("key ctrl+q");
+    assert_int_equal(wait_for_end(), 0);
+    int16_t values[16 * 16 * 8];
+    for (int i = 0; i < 16 * 16 * 8; i++) values[i] = (int16_t)(i % 251);
+    FILE *file = fopen(FOLDER "/long.raw", "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(values, sizeof values, 1, file), 1);
+    fclose(file);
+    start_viewer(FOLDER "/long.raw --raw-dims 16x16x8 --raw-type i16 --raw-spacing 0.1,100,1");
+    expect_text("phase", "ready");
+    go_to("axial");
+    double across = number_now("crosshair_mm.1");
+    hands("key --repeat 5 --delay 20 alt+Right");
+    expect_number("coronal.lean_deg", 5, 1e-9);
+    int x, y;
+    middle("axial", &x, &y);
+    hands("mousemove %d %d click 1", x, y + 2);
+    for (int i = 0; i < 200 && fabs(number_now("crosshair_mm.1") - across) < 1; i++) nap(20);
+    assert_true(fabs(number_now("crosshair_mm.1") - across) > 1);
+    hands("key ctrl+r");
+    expect_number("coronal.lean_deg", 0, 0);
+    expect_number("crosshair_mm.1", across, 1e-6);
+    expect_number("coronal.pan_mm.0", 0, 0.1); /* of 1.5 mm */
+    expect_number("sagittal.pan_mm.0", 0, 0.1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_opens),
@@ -465,6 +495,7 @@ int main(void) {
         cmocka_unit_test(voxels_are_shown_as_they_are),
         cmocka_unit_test(states_keep_oblique_planes),
         cmocka_unit_test(names_are_left_out_of_saved_windows),
+        cmocka_unit_test(planes_along_the_patient_leave_long_voxels_in_the_middle),
         cmocka_unit_test(it_ends_well),
     };
     return cmocka_run_group_tests(tests, opening, close_display);

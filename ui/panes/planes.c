@@ -11,15 +11,16 @@ void ang_planes_take(ang_viewer *viewer) {
 
 void ang_planes_follow(ang_viewer *viewer) {
     const ang_turn *turn = &viewer->document.turn;
-    const ang_volume *volume = viewer->study.volume;
-    if (ang_turn_same(&viewer->turn, turn)) return;
-    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
-        ang_slice_axes before = ang_slice_axes_of(&viewer->turn, (ang_orientation)i);
-        ang_slice_axes after = ang_slice_axes_of(turn, (ang_orientation)i);
-        ang_slice_keep_place(&viewer->document.slice_view[i], volume, viewer->document.crosshair, &before, &after);
-    }
+    const ang_turn was = viewer->turn;
+    if (ang_turn_same(&was, turn)) return;
     ang_planes_take(viewer);
-    ang_viewer_point_at(viewer, viewer->document.crosshair);
+    ang_viewer_point_at(viewer, viewer->document.crosshair); /* first, for planes along the patient move it */
+    for (int i = 0; i < ANG_ORIENTATIONS; i++) {
+        ang_slice_axes before = ang_slice_axes_of(&was, (ang_orientation)i);
+        ang_slice_axes after = ang_slice_axes_of(turn, (ang_orientation)i);
+        ang_slice_keep_place(&viewer->document.slice_view[i], viewer->study.volume, viewer->document.crosshair, &before,
+                             &after);
+    }
 }
 
 void ang_planes_turn(ang_viewer *viewer, int degrees) {
