@@ -18,6 +18,7 @@ typedef struct ang_load_options {
      * ends; NULL: the first. */
     const char *series;
     const char *series_choice; /* what picks another series, for a sentence of the report; NULL: "--series" */
+    const char *phase_choice;  /* likewise another phase; NULL: "--phase" */
     int phase;                 /* --phase: 1, 2, ... of a series of several phases; 0: the first */
     /* Refused with ANG_USAGE where the input is not raw. */
     const char *raw_dims;    /* --raw-dims "XxYxZ"; NULL: a JSON sidecar beside the file (NAME.json) must say it */

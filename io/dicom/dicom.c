@@ -164,8 +164,8 @@ static void note_choice(const ang_dicom_listing *listing, size_t chosen, const a
                       group->duplicates, ang_plural(group->duplicates),
                       first->has_position ? "position" : "InstanceNumber");
     if (group->set > 0)
-        ang_notes_add(&report->assumptions, "phase %d of %d is shown, %s; --phase picks another", group->phase,
-                      group->phases, group->phase_text);
+        ang_notes_add(&report->assumptions, "phase %d of %d is shown, %s; %s picks another", group->phase,
+                      group->phases, group->phase_text, options->phase_choice ? options->phase_choice : "--phase");
     else if (group->phases > 1)
         ang_notes_add(&report->assumptions, "the series holds %d volumes at the same positions: one is shown",
                       group->phases);

@@ -174,6 +174,19 @@ static void test_a_phase_is_loaded(void **state) {
         ang_volume_free(v);
         ang_load_report_clear(&report);
     }
+    static const char *const choices[] = {NULL, "a key"}, *const told[] = {"; --phase picks another",
+                                                                           "; a key picks another"};
+    for (int i = 0; i < 2; i++) {
+        ang_load_report report;
+        ang_volume *v = ang_load(FOLDER, &(ang_load_options){.phase_choice = choices[i]}, &report, NULL, NULL);
+        assert_non_null(v);
+        bool found = false;
+        for (size_t k = 0; k < report.assumptions.count; k++)
+            found = found || strstr(report.assumptions.text[k], told[i]);
+        assert_true(found);
+        ang_volume_free(v);
+        ang_load_report_clear(&report);
+    }
     ang_load_report report;
     ang_error err = {0};
     assert_null(ang_load(FOLDER, &(ang_load_options){.phase = 4}, &report, NULL, &err));
