@@ -7,6 +7,7 @@
 #include "ui/dialogs/messages.h"
 #include "ui/panels/panel.h"
 #include "ui/panels/transfer_editor.h"
+#include "ui/panes/arriving.h"
 #include "ui/panes/identity.h"
 #include "ui/panes/overlay.h"
 #include "ui/panes/playing.h"
@@ -73,8 +74,9 @@ static void layout(ang_viewer *viewer) {
         panes(viewer);
         ang_focus_follow(viewer);
         ang_transfer_editor_leave(viewer);
-    } else if (viewer->series.open && places.panel.width >= 1) {
-        ang_panel(viewer, places.panel);
+    } else {
+        if (viewer->series.open && places.panel.width >= 1) ang_panel(viewer, places.panel);
+        if (viewer->loading.running) ang_arriving_show(viewer, &places);
     }
     ang_status_line(viewer, places.status);
     ang_messages(viewer);
@@ -92,11 +94,11 @@ static void describe_browsers(const ang_viewer *viewer, ang_viewer_state *state)
     state->slices_previewed = viewer->preview.pictures;
 }
 
-/* Seconds until there is something to do for the 3D picture while the hands rest; infinite: nothing. */
+/* Seconds until there is something to do for the pictures while the hands rest; infinite: nothing. */
 static double rest_work_in(const ang_viewer *viewer) {
     if (!viewer->ready) return INFINITY;
     if (ang_thumbnails_wanted(viewer)) return 0;
-    return fmin(ang_volume_refine_in(viewer), ang_picture_error_in(viewer));
+    return fmin(ang_slices_refine_in(viewer), fmin(ang_volume_refine_in(viewer), ang_picture_error_in(viewer)));
 }
 
 void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
@@ -128,7 +130,7 @@ void ang_viewer_describe(const ang_viewer *viewer, ang_viewer_state *state) {
                                 .choice = ang_volume_method_choice(viewer),
                                 .method = volume->method ? volume->method->name : NULL,
                                 .size = {volume->size[0], volume->size[1]},
-                                .refined = volume->refined,
+                                .refined = volume->refined && isinf(ang_slices_refine_in(viewer)),
                                 .levels_shown = volume->refining.levels_shown,
                                 .at_rest = viewer->ready && isinf(rest_work_in(viewer)),
                                 .presets_pictured = ang_thumbnails_made(viewer),
@@ -200,12 +202,14 @@ static bool draw_frame(ang_viewer *viewer, ang_error *err) {
     return ang_painter_check(viewer->painter, err);
 }
 
-/* The fine picture first, then how wrong it is, then small ones of the presets; each until input comes. */
+/* The fine pictures first, then how wrong it is, then small ones of the presets; each until input comes. */
 static void rest_work(ang_viewer *viewer) {
     viewer->redraws = settling_frames;
     if (ang_window_pending(viewer->window) || rest_work_in(viewer) > 0) return;
     ang_rect rect = volume_place(viewer);
-    if (ang_volume_refine_in(viewer) <= 0) {
+    if (ang_slices_refine_in(viewer) <= 0) {
+        ang_slices_refine(viewer);
+    } else if (ang_volume_refine_in(viewer) <= 0) {
         ang_volume_update(viewer, (int)rect.width, (int)rect.height, true);
         if (ang_volume_refine_in(viewer) <= 0) viewer->redraws = 0; /* the next level settles it */
     } else if (ang_picture_error_in(viewer) <= 0) {

@@ -230,6 +230,28 @@ static void one_broken_file_costs_a_warning(void **state) {
     assert_int_equal(wait_for_end(), 0);
 }
 
+/* In the first pane, where there is no study yet: which slice of how many is written in its corner. */
+static void slices_show_in_a_pane_as_they_arrive(void **state) {
+    (void)state;
+    need_window();
+    start_viewer(FOLDER "/long.raw.gz");
+    for (int i = 0; i < 500 && !(number_now("slices_previewed") > 0); i++) nap(10);
+    hands("key ctrl+shift+s");
+    expect_text("saved", "angioscope-window-0001.png");
+    expect_text("phase", "loading");
+    hands("key Escape");
+    expect_text("phase", "empty");
+    ang_image image;
+    assert_true(ang_picture_read(PICTURES "/angioscope-window-0001.png", &image, NULL));
+    double corner = 0;
+    for (int y = 330; y < 358; y++)
+        for (int x = 330; x < 400; x++) corner = fmax(corner, (double)image.rgba[4 * (y * image.width + x)]);
+    assert_true(image.width == 1280 && corner > 0.5);
+    ang_image_clear(&image);
+    hands("key ctrl+q");
+    assert_int_equal(wait_for_end(), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_a_path_the_file_browser_opens),
@@ -239,6 +261,7 @@ int main(void) {
         cmocka_unit_test(loading_is_cancelled_or_replaced),
         cmocka_unit_test(a_preset_file_is_imported),
         cmocka_unit_test(one_broken_file_costs_a_warning),
+        cmocka_unit_test(slices_show_in_a_pane_as_they_arrive),
     };
     return cmocka_run_group_tests(tests, opening, close_display);
 }

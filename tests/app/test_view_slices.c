@@ -381,6 +381,26 @@ static void voxels_are_shown_as_they_are(void **state) {
     expect_number("hovered_hu", between, 1e-3);
 }
 
+/* A slab is coarse while it moves; what is saved then, and what stands at rest, is not. */
+static void a_thick_slab_is_saved_as_it_is_at_rest(void **state) {
+    (void)state;
+    need_window();
+    go_to("coronal");
+    double slice = number_now("coronal.slice");
+    hands("key --repeat 6 --delay 20 bracketright");
+    expect_number("slab.mm", 80, 0);
+    hands("click 5 key ctrl+s");
+    expect_text("saved", "angioscope-coronal-0002.png");
+    expect_flag("at_rest", true);
+    assert_true(fabs(number_now("coronal.slice") - slice) > 0.5);
+    hands("key ctrl+s");
+    expect_text("saved", "angioscope-coronal-0003.png");
+    assert_close(difference(PICTURES "/angioscope-coronal-0002.png", PICTURES "/angioscope-coronal-0003.png"), 0, 0);
+    hands("click 4 key --repeat 6 --delay 20 bracketleft");
+    expect_number("slab.mm", 0, 0);
+    expect_number("coronal.slice", slice, 0);
+}
+
 /* A state brings planes and crosshair back as they were. */
 static void states_keep_oblique_planes(void **state) {
     (void)state;
@@ -493,6 +513,7 @@ int main(void) {
         cmocka_unit_test(the_volume_turns_by_itself),
         cmocka_unit_test(a_drag_scrolls),
         cmocka_unit_test(voxels_are_shown_as_they_are),
+        cmocka_unit_test(a_thick_slab_is_saved_as_it_is_at_rest),
         cmocka_unit_test(states_keep_oblique_planes),
         cmocka_unit_test(names_are_left_out_of_saved_windows),
         cmocka_unit_test(planes_along_the_patient_leave_long_voxels_in_the_middle),

@@ -8,7 +8,7 @@
 
 enum { SLICE = 320 }; /* side of the slice that is shown while loading, at scale 1 */
 
-/* The slice that was read last, in a square that does not change with it. */
+/* The slice that was read last, in a square that does not change with it: where the panes show another study. */
 static void show_slice(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     const ang_slice_preview *preview = &viewer->preview;
@@ -31,8 +31,10 @@ static void show_loading(ang_viewer *viewer) {
     double fraction = ang_loading_progress(&viewer->loading, what);
     bool stopping = ang_loading_stopping(&viewer->loading);
     ang_gui_message_begin(gui, "loading");
-    show_slice(viewer);
-    ang_gui_gap(gui, ang_gui_px(gui, 4));
+    if (viewer->ready) {
+        show_slice(viewer);
+        ang_gui_gap(gui, ang_gui_px(gui, 4));
+    }
     ang_gui_text(gui, "%s", stopping ? "stopping" : what[0] ? what : "opening");
     ang_gui_progress(gui, fraction, width);
     ang_gui_gap(gui, ang_gui_px(gui, 4));

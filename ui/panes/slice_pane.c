@@ -1,6 +1,5 @@
 #include "ui/panes/slice_pane.h"
 
-#include "core/base/memory.h"
 #include "core/scene/annotation.h"
 #include "ui/panes/crosshair.h"
 #include "ui/panes/identity.h"
@@ -13,82 +12,8 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const double least_window = 1;
-
-/* Grey of a value under the document's window, 0..255; outside the volume black. */
-static uint8_t grey_of(double hu, double centre, double width) {
-    if (isnan(hu)) return 0;
-    double grey = (hu - centre) / width + 0.5;
-    return grey <= 0 ? 0 : grey >= 1 ? 255 : (uint8_t)lround(255 * grey);
-}
-
-static bool make_room(ang_slice_picture *picture, size_t pixels, ang_error *err) {
-    if (picture->room >= pixels) return true;
-    free(picture->hu);
-    free(picture->rgba);
-    picture->room = 0;
-    picture->hu = ang_alloc(pixels, sizeof *picture->hu, "a slice", err);
-    picture->rgba = ang_alloc(pixels, 4, "a slice", err);
-    if (!picture->hu || !picture->rgba) return false;
-    picture->room = pixels;
-    return true;
-}
-
-static bool same_place(ang_vec3 a, ang_vec3 b) { return ang_vec3_length(ang_vec3_sub(a, b)) == 0; }
-
-static bool same_plane(const ang_reslice_plane *a, const ang_reslice_plane *b) {
-    bool same_slab = a->slab == b->slab && a->thickness_mm >= b->thickness_mm && a->thickness_mm <= b->thickness_mm;
-    return a->width == b->width && a->height == b->height && a->nearest == b->nearest && same_slab &&
-           same_place(a->origin, b->origin) && same_place(a->step_x, b->step_x) && same_place(a->step_y, b->step_y);
-}
-
-/* Brings values, greys and texture up to date, each only where it has to be. */
-static bool fill(ang_viewer *viewer, ang_slice_picture *picture, const ang_reslice_plane *plane, ang_error *err) {
-    const ang_document *document = &viewer->document;
-    size_t pixels = (size_t)plane->width * (size_t)plane->height;
-    bool moved = !picture->filled || !same_plane(&picture->plane, plane);
-    bool windowed = picture->centre < document->window_centre || picture->centre > document->window_centre ||
-                    picture->width < document->window_width || picture->width > document->window_width;
-    if (!moved && !windowed) return true;
-    picture->filled = false;
-    if (!make_room(picture, pixels, err)) return false;
-    if (moved && !ang_reslice(viewer->study.volume, plane, viewer->host->threads, picture->hu, err)) return false;
-    if (moved) picture->version++;
-    for (size_t i = 0; i < pixels; i++) {
-        uint8_t grey = grey_of((double)picture->hu[i], document->window_centre, document->window_width);
-        memset(picture->rgba + 4 * i, grey, 3);
-        picture->rgba[4 * i + 3] = 255;
-    }
-    if (!ang_painter_picture(viewer->painter, &picture->texture, plane->width, plane->height, picture->rgba, false,
-                             err))
-        return false;
-    picture->plane = *plane;
-    picture->centre = document->window_centre;
-    picture->width = document->window_width;
-    picture->filled = true;
-    return true;
-}
-
-void ang_slice_picture_clear(ang_viewer *viewer, ang_slice_picture *picture) {
-    ang_painter_forget(viewer->painter, &picture->texture);
-    ang_painter_forget(viewer->painter, &picture->mark.texture);
-    free(picture->hu);
-    free(picture->rgba);
-    *picture = (ang_slice_picture){0};
-}
-
-bool ang_slice_image(ang_viewer *viewer, ang_orientation orientation, ang_image *image, ang_error *err) {
-    const ang_slice_picture *picture = &viewer->slice[orientation];
-    if (!picture->filled)
-        return ang_fail(err, ANG_USAGE, "the %s slice has not been drawn yet", ang_orientation_name(orientation));
-    if (!ang_image_create(image, picture->plane.width, picture->plane.height, err)) return false;
-    size_t values = 4 * (size_t)image->width * (size_t)image->height;
-    for (size_t i = 0; i < values; i++) image->rgba[i] = (float)picture->rgba[i] / 255;
-    return true;
-}
 
 ang_slice_frame ang_slice_frame_of(const ang_viewer *viewer, ang_orientation orientation, ang_rect rect) {
     return ang_slice_frame_make(viewer->study.volume, &viewer->turn, orientation,
@@ -244,7 +169,7 @@ void ang_slice_pane(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     ang_reslice_plane plane = ang_slice_plane(&frame, viewer->document.slab_mm, viewer->document.slab);
     plane.nearest = viewer->voxels_shown;
     ang_error err = {0};
-    if (fill(viewer, picture, &plane, &err))
+    if (ang_slice_picture_fill(viewer, picture, &plane, &err))
         ang_gui_picture(viewer->gui, &picture->texture, rect);
     else
         ang_viewer_say(viewer, true, "%s", err.message);
