@@ -78,7 +78,7 @@ static void show_line(ang_gui *gui, const help_line *line) {
     else
         ang_gui_text(gui, "%s", line->action ? ang_action_shortcut(line->action, text) : line->left ? line->left : "");
     ang_gui_table_next(gui);
-    ang_gui_text_dim(gui, "%s", line->right ? line->right : "");
+    ang_gui_text_dim(gui, "%s   ", line->right ? line->right : ""); /* room before the next column */
 }
 
 /* Breaks the list into columns of one height, at most; a group that goes on in the next has its name there again. */

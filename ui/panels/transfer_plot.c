@@ -59,17 +59,32 @@ static void draw_histogram(const ang_plot *plot) {
     }
 }
 
+static const struct {
+    double opacity;
+    const char *label;
+} grid[] = {{0.05, "5 %"}, {0.25, "25 %"}, {0.5, "50 %"}, {1, "100 %"}};
+enum { grid_lines = sizeof grid / sizeof *grid };
+
+static double grid_y(const ang_plot *plot, int line) {
+    return round(ang_plot_y(plot, ang_height_of_opacity(grid[line].opacity))) + 0.5;
+}
+
 static void draw_grid(const ang_plot *plot) {
-    static const struct {
-        double opacity;
-        const char *label;
-    } lines[] = {{0.05, "5 %"}, {0.25, "25 %"}, {0.5, "50 %"}, {1, "100 %"}};
+    for (int i = 0; i < grid_lines; i++)
+        ang_gui_line(plot->viewer->gui, plot->curve.x, grid_y(plot, i), plot->curve.x + plot->curve.width,
+                     grid_y(plot, i), plot->viewer->theme->grid, 1);
+}
+
+/* On a ground of their own, to be read over the curve's colours. */
+static void write_grid(const ang_plot *plot) {
+    const ang_theme *theme = plot->viewer->theme;
     ang_gui *gui = plot->viewer->gui;
-    double right = plot->curve.x + plot->curve.width;
-    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-        double y = round(ang_plot_y(plot, ang_height_of_opacity(lines[i].opacity))) + 0.5;
-        ang_gui_line(gui, plot->curve.x, y, right, y, plot->viewer->theme->grid, 1);
-        ang_gui_write(gui, right - ang_gui_px(gui, 3), y + 1, 1, true, false, plot->viewer->theme->dim, lines[i].label);
+    double right = plot->curve.x + plot->curve.width - ang_gui_px(gui, 3), room = ang_gui_px(gui, 2);
+    for (int i = 0; i < grid_lines; i++) {
+        double y = grid_y(plot, i) + 1, wide = ang_gui_text_width(gui, grid[i].label, true);
+        ang_rect ground = {right - wide - room, y, wide + 2 * room, ang_gui_text_height(gui, true)};
+        ang_gui_fill(gui, ground, ANG_INK_FADED(theme->plot, 200));
+        ang_gui_write(gui, right, y, 1, true, false, theme->dim, grid[i].label);
     }
 }
 
@@ -225,6 +240,7 @@ void ang_plot_draw(const ang_plot *plot, int pointed) {
         draw_curve(plot, transfer);
         draw_strip(plot, transfer);
     }
+    write_grid(plot);
     if (viewer->document.edited) draw_chosen(plot);
     draw_mark(plot);
     draw_points(plot, pointed);
