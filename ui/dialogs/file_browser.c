@@ -355,6 +355,7 @@ void ang_file_browser_show(ang_viewer *viewer) {
     draw_foot(viewer);
     ang_gui_text_dim(gui, "Enter opens, Ctrl+Enter a folder with all below it, Backspace goes up, Tab completes;");
     ang_gui_text_dim(gui, "Ctrl+1 ... 9 open what is recent, Ctrl+F lists all files, Ctrl+H hidden ones.");
+    ang_gui_text_dim(gui, "Presets of 3D Slicer (.vp, .vp.json, .xml) and saved states open like studies.");
     ang_gui_message_end(gui);
     if (files->open) handle_keys(viewer, page);
 }
