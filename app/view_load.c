@@ -62,7 +62,7 @@ bool ang_view_load(const ang_load_options *how, bool keep_phi, const ang_source 
     if (source->series > 0) options.phase = source->phase;
     options.slices = *slices;
     options.series_choice = "File > Series (key F3)";
-    options.phase_choice = "File > Next phase (Ctrl+])";
+    options.phase_choice = "Slices > Next phase (key Ctrl+])";
     *study = (ang_study){0};
     ang_load_report *report = calloc(1, sizeof *report);
     if (!report) return ang_fail(err, ANG_LIMIT, "no memory for a report");
