@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Room for `width * height * 3` values of `value_size` bytes behind a header; the header is written. */
 static unsigned char *begin(const char *magic, const char *scale, int width, int height, size_t value_size,
@@ -75,6 +76,21 @@ static bool read_word(FILE *file, char *word, size_t size) {
     return length > 0;
 }
 
+/* A number of pixels, 1 to 65536; 0: it is none. */
+static long read_length(const char *word) {
+    char *end;
+    long length = strtol(word, &end, 10);
+    return *end || length < 1 || length > 65536 ? 0 : length;
+}
+
+/* Whether a file of known length has fewer than `size` bytes left: before room is made for what a header claims. */
+static bool is_cut(FILE *file, size_t size) {
+    struct stat status;
+    long at = ftell(file);
+    return fstat(fileno(file), &status) == 0 && S_ISREG(status.st_mode) && at >= 0 &&
+           (status.st_size < at || (size_t)(status.st_size - at) < size);
+}
+
 static bool read_pixels(FILE *file, const char *path, ang_image *out, ang_error *err) {
     char magic[8], width[16], height[16], scale[32];
     bool good = read_word(file, magic, sizeof magic) && read_word(file, width, sizeof width) &&
@@ -83,11 +99,11 @@ static bool read_pixels(FILE *file, const char *path, ang_image *out, ang_error 
     if (!good || (!is_float && (strcmp(magic, "P6") != 0 || strcmp(scale, "255") != 0))) {
         return ang_fail(err, ANG_INPUT, "%s: neither a P6 pixmap of 8 bits nor a PF float map; convert it", path);
     }
-    long w = strtol(width, NULL, 10), h = strtol(height, NULL, 10);
-    if (w < 1 || h < 1 || w > 65536 || h > 65536) {
-        return ang_fail(err, ANG_INPUT, "%s: a size of %s x %s pixels is not to be read", path, width, height);
-    }
+    long w = read_length(width), h = read_length(height);
+    if (w < 1 || h < 1) return ang_fail(err, ANG_INPUT, "%s: its size in pixels is not one that is read", path);
     size_t row = (size_t)w * 3, size = row * (is_float ? 4 : 1);
+    if (is_cut(file, size * (size_t)h))
+        return ang_fail(err, ANG_INPUT, "%s: ends before its last pixel; write it again", path);
     unsigned char *line = ang_alloc(size, 1, "picture", err);
     if (!line || !ang_image_create(out, (int)w, (int)h, err)) {
         free(line);

@@ -184,8 +184,9 @@ static void failures_name_the_file_and_leave_nothing(void **state) {
 static void broken_pictures_are_refused(void **state) {
     (void)state;
     static const char *const names[] = {"f.ppm", "f.pfm", "f.png", "f.tif", "f.exr"};
-    static const char *const contents[] = {"", "P6\n3 3\n255\nabc", "PF 99999999 99999999 -1\n", "\x89PNG\r\n\x1a\n",
-                                           "II*\0"};
+    static const char *const contents[] = {
+        "",      "P6\n3 3\n255\nabc",     "PF 99999999 99999999 -1\n", "\x89PNG\r\n\x1a\n",
+        "II*\0", "PF\n65536 65536\n-1\n", "P6\n1x 1\n255\nabc"};
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         for (size_t c = 0; c < sizeof contents / sizeof *contents; c++) {
             ang_error err = {0};
