@@ -45,7 +45,7 @@ static const ang_option table[] = {
                 "preset: see 'presets list'; default: one that suits the input"),
     REAL_OPTION("shift", DRAWS, shift, "HU", -1e5, 1e5, "0", "HU",
                 "moves the preset's transfer function along the HU axis"),
-    CHOICE_OPTION("method", method, "auto|cpu|slicing|raycast|envelope|singlepass|reference", "auto",
+    CHOICE_OPTION("method", method, "auto|cpu|adaptive|slicing|raycast|envelope|singlepass|reference", "auto",
                   "rendering method"),
     CHOICE_OPTION(
         "mode", mode, "dvr|mip|minip|mean|iso|lookups", NULL,

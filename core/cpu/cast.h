@@ -58,6 +58,11 @@ typedef struct ang_cast {
     bool jumps, thin, one_colour;              /* ANG_PART_ROUNDING, not ANG_PART_EXPONENTIAL, not ANG_PART_COLOUR */
     float colour[3];                           /* where one_colour */
     float termination;
+    /* rays that go from cell to cell (cast_cells.c); means is NULL where none do */
+    const float *means;           /* records of ang_means */
+    float mean_unit;              /* 1/mm * intervals in one of their whole numbers */
+    float most_bent;              /* by which share of its width a mean may be moved */
+    float longest, longest_whole; /* mm: pieces within a cell, and the longest way that is not cut into such */
     /* shading */
     float gradient_to_mm[3][3]; /* halved stored differences to HU per mm */
     float half_slope;           /* halved stored differences to HU */
@@ -81,7 +86,7 @@ typedef void ang_cast_tile(const ang_cast *cast, int x, int y, ang_cast_took *to
 
 typedef struct ang_cast_width {
     const char *name; /* in words: "16 lanes, AVX-512" */
-    ang_cast_tile *tile;
+    ang_cast_tile *tile, *cells;
 } ang_cast_width;
 enum { ANG_CAST_WIDTHS = 3 };
 

@@ -305,13 +305,6 @@ INLINE void find_surfaces(const ang_cast *cast, tile *t) {
     }
 }
 
-INLINE void keep_unfinished(tile *t) {
-    int kept = 0;
-    for (int a = 0; a < t->actives; a++)
-        if (t->begin[t->active[a]] < t->end[t->active[a]]) t->active[kept++] = t->active[a];
-    t->actives = kept;
-}
-
 /* Every ray of the tile to its end. `kind` is a constant. */
 INLINE void cast_rays(const ang_cast *cast, tile *t, ang_cast_kind kind, ang_cast_took *took) {
     seen s;

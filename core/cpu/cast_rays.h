@@ -331,4 +331,11 @@ INLINE void take_all(tile *t) {
     }
 }
 
+INLINE void keep_unfinished(tile *t) {
+    int kept = 0;
+    for (int a = 0; a < t->actives; a++)
+        if (t->begin[t->active[a]] < t->end[t->active[a]]) t->active[kept++] = t->active[a];
+    t->actives = kept;
+}
+
 #endif

@@ -8,6 +8,7 @@
 #include "core/render/facts.h"
 #include "core/scene/object_layer.h"
 #include "core/scene/objects.h"
+#include "core/transfer/means.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -15,6 +16,8 @@
 
 /* Samples of a ray are counted in float. */
 static const double most_samples = 4e6;
+/* Of rays that go from cell to cell, in steps: the pieces that long cells are cut into, and what is left whole. */
+static const double longest_piece = 1, longest_whole = 1.5;
 
 struct ang_renderer {
     const ang_volume *volume;
@@ -26,6 +29,8 @@ struct ang_renderer {
     ang_visibility gridded; /* what the grid was brought up to date for, where grid_current */
     bool grid_current;
     ang_object_layer objects;
+    bool adapts;      /* the method is `adaptive` */
+    ang_means *means; /* of the tables, where it is */
 };
 
 /* What is decided about one picture. */
@@ -34,8 +39,9 @@ typedef struct decision {
     ang_visibility visibility;
     ang_plan_facts facts;
     ang_plan_decisions plan;
-    double step; /* mm */
-    bool whole;  /* steps are classified by all values between their ends */
+    double step;  /* mm */
+    bool whole;   /* steps are classified by all values between their ends */
+    bool by_cell; /* rays go from cell to cell */
 } decision;
 
 static bool uses(const decision *d, ang_part part) { return ang_plan_uses(&d->plan, part); }
@@ -45,6 +51,7 @@ static void destroy(ang_renderer *renderer) {
     ang_object_layer_clear(&renderer->objects);
     ang_block_grid_clear(&renderer->grid);
     ang_classifier_clear(&renderer->classifier);
+    ang_means_free(renderer->means);
     free(renderer->weights);
     free(renderer->wide);
     free(renderer);
@@ -133,8 +140,16 @@ static bool prepare_classifier(ang_renderer *renderer, const ang_scene *scene, c
     if (ang_scene_needs_table(scene) &&
         !ang_classifier_update(classifier, scene->transfer, renderer->volume, &made, err))
         return false;
-    if (made) renderer->grid_current = false;
+    if (made) {
+        renderer->grid_current = false;
+        ang_means_free(renderer->means);
+        renderer->means = NULL;
+    }
     if (scene->mode != ANG_MODE_DVR) return true;
+    if (d->by_cell) {
+        if (!renderer->means) renderer->means = ang_means_create(classifier->table.tables, err);
+        return renderer->means != NULL;
+    }
     if (!ang_classifier_choose(classifier, scene->transfer, renderer->volume, options->classification, d->step, warn,
                                err))
         return false;
@@ -153,15 +168,17 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
         return ang_fail(err, ANG_USAGE, "--step %g: give a positive multiple of the smallest spacing",
                         options->step_voxels);
     if (!ang_scene_check(scene, err) || !ang_ray_frame_make(volume, scene, &d->frame, err)) return false;
-    d->step = fmax(options->step_voxels * ang_volume_smallest_spacing(volume),
-                   2 * ang_volume_half_diagonal(volume) / most_samples);
+    d->by_cell = renderer->adapts && scene->mode == ANG_MODE_DVR;
+    double voxels = options->step_voxels;
+    if (d->by_cell) voxels = fmin(voxels, ang_method_adaptive.coarsest_step);
+    d->step = fmax(voxels * ang_volume_smallest_spacing(volume), 2 * ang_volume_half_diagonal(volume) / most_samples);
     if (!prepare_classifier(renderer, scene, options, warn, d, err)) return false;
     if (!prepare_weights(renderer, scene, options->threads, err)) return false;
     if (scene->objects && !ang_object_layer_make(&renderer->objects, volume, scene, &d->frame, options->threads, err))
         return false;
     d->visibility = ang_visibility_make(volume, scene, renderer->classifier.table.tables);
     d->facts = ang_facts_make(ANG_DRAW_LANES, NULL, volume, scene, options, &d->frame, &renderer->classifier.table,
-                              1.01 * d->step);
+                              (d->by_cell ? 1.01 * longest_whole / 2 : 1.01) * d->step);
     d->facts.whole_steps = d->whole;
     if (d->whole) d->facts.extinction = ang_classifier_greatest(&renderer->classifier);
     d->plan = ang_plan_decide(&d->facts);
@@ -220,6 +237,16 @@ static void set_grid(ang_cast *cast, const ang_renderer *renderer, const decisio
     }
 }
 
+static void set_means(ang_cast *cast, const ang_means *means, const decision *d) {
+    cast->means = means->records;
+    cast->mean_unit = (float)means->unit;
+    cast->plateaus = means->plateaus;
+    /* What bends would move across a step of the transfer function tells little of what is there. */
+    cast->most_bent = cast->jumps ? 0.5f : 8;
+    cast->longest = (float)(longest_piece * d->step);
+    cast->longest_whole = (float)(longest_whole * d->step);
+}
+
 static void set_table(ang_cast *cast, const ang_renderer *renderer, const decision *d) {
     const ang_table_cache *table = &renderer->classifier.table;
     if (!table->tables) return;
@@ -237,6 +264,7 @@ static void set_table(ang_cast *cast, const ang_renderer *renderer, const decisi
     cast->thin = !uses(d, ANG_PART_EXPONENTIAL);
     cast->one_colour = !uses(d, ANG_PART_COLOUR);
     for (int c = 0; c < 3; c++) cast->colour[c] = (float)table->colour[c];
+    if (d->by_cell) set_means(cast, renderer->means, d);
 }
 
 static void set_phong(ang_cast *cast, const ang_volume *volume, const ang_scene *scene, const decision *d) {
@@ -324,13 +352,18 @@ static bool render(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     cast.counts = stats ? stats->counts : NULL;
     size_t columns = ((size_t)scene->width + ANG_CAST_TILE - 1) / ANG_CAST_TILE;
     size_t rows = ((size_t)scene->height + ANG_CAST_TILE - 1) / ANG_CAST_TILE;
-    picture_job job = {
-        .cast = &cast, .tile = renderer->width.tile, .columns = columns, .tiles = columns * rows, .progress = progress};
+    picture_job job = {.cast = &cast,
+                       .tile = d.by_cell ? renderer->width.cells : renderer->width.tile,
+                       .columns = columns,
+                       .tiles = columns * rows,
+                       .progress = progress};
     /* Whoever may interrupt it should not wait for more than a tile of each thread. */
     ang_parallel_for(job.tiles, progress ? 1 : 4, options->threads, draw_tiles, &job);
     if (job.cancelled) return ang_fail(err, ANG_INTERRUPTED, "interrupted while rendering");
     if (scene->objects) ang_object_layer_join(&renderer->objects, scene, image);
+    static const ang_classification by_cell = {.prefix = true};
     const ang_classification *how = scene->mode == ANG_MODE_DVR ? &renderer->classifier.classification : NULL;
+    if (d.by_cell) how = &by_cell;
     ang_cast_took took = {0};
     for (int i = 0; i < ANG_MAX_THREADS; i++) {
         took.samples += job.worker[i].took.samples;
@@ -367,12 +400,35 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
             ang_plan_leave_out(plan, "parts of the volume", "%zu of %zu blocks: %s",
                                grid->blocks - grid->visible_blocks, grid->blocks, ang_visibility_reason(scene->mode));
     }
-    if (scene->mode == ANG_MODE_DVR)
+    if (d.by_cell)
+        ang_plan_use(plan, "steps from face to face of cells, at most %.3g mm, integrated over the transfer function",
+                     longest_whole * d.step);
+    if (scene->mode == ANG_MODE_DVR && !d.by_cell)
         ang_classification_explain(&renderer->classifier.classification,
                                    d.whole && renderer->classifier.prefix->plateaus, plan);
     ang_scene_explain(plan, scene, renderer->volume, &d.plan);
     return true;
 }
+
+static ang_renderer *create_adaptive(ang_gl *gl, const ang_volume *volume, const ang_render_options *options,
+                                     ang_error *err) {
+    ang_renderer *renderer = create(gl, volume, options, err);
+    if (renderer) renderer->adapts = true;
+    return renderer;
+}
+
+const ang_method ang_method_adaptive = {
+    .name = "adaptive",
+    .title = "cpu with steps from cell to cell, integrated over the transfer function",
+    .source = "docs/adaptive.md",
+    .takes = ANG_TAKES_TERMINATION | ANG_TAKES_NO_SKIP,
+    .coarsest_step = 1, /* rays stop at every face of a cell anyway */
+    .splits = true,
+    .create = create_adaptive,
+    .render = render,
+    .explain = explain,
+    .destroy = destroy,
+};
 
 const ang_method ang_method_cpu = {
     .name = "cpu",

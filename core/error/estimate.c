@@ -69,6 +69,7 @@ static bool update(void *context, const char *what, double fraction) {
 static bool draw(pictures *p, const ang_scene *scene, double finer, ang_error *err) {
     ang_image *image = &p->image[p->drawn];
     ang_render_options options = *p->options;
+    if (p->method->coarsest_step > 0) options.step_voxels = fmin(options.step_voxels, p->method->coarsest_step);
     options.step_voxels /= finer;
     options.classification = p->classification;
     options.manual_filter = options.manual_filter || p->drawn == MANUAL;

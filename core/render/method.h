@@ -82,8 +82,9 @@ typedef struct ang_method {
     const char *title;  /* one line */
     const char *source; /* paper */
     bool needs_gl;
-    bool exact;     /* takes no steps: neither the step nor an error estimate means anything to it */
-    unsigned takes; /* ang_method_takes */
+    bool exact;           /* takes no steps: neither the step nor an error estimate means anything to it */
+    unsigned takes;       /* ang_method_takes */
+    double coarsest_step; /* voxels: a greater one gives the same picture; 0: there is none */
     bool splits; /* a subset of a picture (ang_scene_subset) is its pixels to the bit and takes but their share of its
                     time */
     /* A renderer of this volume, which must outlive it; `gl` is NULL where needs_gl is false. Of `options`, gpu_memory
@@ -118,6 +119,7 @@ const ang_method *ang_method_choose_without_gl(const ang_volume *volume, const a
                                                const char **why);
 
 extern const ang_method ang_method_cpu;
+extern const ang_method ang_method_adaptive;
 extern const ang_method ang_method_reference;
 extern const ang_method ang_method_singlepass;
 extern const ang_method ang_method_slicing;

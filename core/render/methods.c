@@ -5,13 +5,9 @@
 
 #include <string.h>
 
-static const ang_method *const methods[] = {&ang_method_singlepass,
-                                            &ang_method_slicing,
-                                            &ang_method_envelope,
-                                            &ang_method_raycast,
-                                            &ang_method_cpu,
-                                            &ang_method_reference,
-                                            NULL};
+static const ang_method *const methods[] = {
+    &ang_method_singlepass, &ang_method_slicing,  &ang_method_envelope,  &ang_method_raycast,
+    &ang_method_cpu,        &ang_method_adaptive, &ang_method_reference, NULL};
 
 const ang_method *const *ang_methods(void) { return methods; }
 

@@ -195,6 +195,8 @@ static size_t list_candidates(const planning *p, ang_candidate *list) {
                 int stride = 1 << k;
                 double step = coarsest_step * pow(2, -0.5 * s), finer = p->measured_step / step;
                 if (exact ? s > 0 : step < finest_step(p, from->method) * (1 - 1e-9)) continue;
+                double coarsest = from->method->coarsest_step;
+                if (coarsest > 0 && step > coarsest * (1 + 1e-9)) continue;
                 ang_cost_work work =
                     ang_cost_scale(&from->work, from->pixels / (stride * stride), exact ? 1 : finer, slices);
                 if (exact) step = 0;

@@ -8,7 +8,7 @@
 /* Beyond any interval, and a float. */
 static const float NO_PLATEAU = 2147483648.0f;
 
-static bool is_plateau(const ang_transfer_tables *tables, int interval) {
+bool ang_plateaus_has(const ang_transfer_tables *tables, int interval) {
     return tables->entries[8 * (size_t)interval + 3] == ANG_TABLE_OPAQUE &&
            tables->entries[8 * (size_t)interval + 7] == ANG_TABLE_OPAQUE;
 }
@@ -22,7 +22,7 @@ static void fill_sums(ang_prefix *prefix, const ang_transfer_tables *tables, con
             out[c] = (float)sum[c];
             out[4 + c] = (float)(sum[c] - out[c]);
         }
-        if (i == tables->intervals || is_plateau(tables, i)) continue;
+        if (i == tables->intervals || ang_plateaus_has(tables, i)) continue;
         double left = tables->first + i / tables->per_value, right = tables->first + (i + 1) / tables->per_value;
         ang_transfer_integral piece =
             ang_transfer_integrate_between(transfer, slope * left + intercept, slope * right + intercept);
@@ -32,23 +32,23 @@ static void fill_sums(ang_prefix *prefix, const ang_transfer_tables *tables, con
     }
 }
 
-static bool fill_plateaus(ang_prefix *prefix, const ang_transfer_tables *tables, ang_error *err) {
+bool ang_plateaus_find(const ang_transfer_tables *tables, float **plateaus, ang_error *err) {
     int count = tables->intervals, found = 0;
-    for (int i = 0; i < count; i++) found += is_plateau(tables, i);
+    for (int i = 0; i < count; i++) found += ang_plateaus_has(tables, i);
+    *plateaus = NULL;
     if (found == 0) return true;
-    prefix->plateaus =
-        ang_alloc(2 * ((size_t)count + 2), sizeof *prefix->plateaus, "plateaus of the transfer function", err);
-    if (!prefix->plateaus) return false;
+    float *out = *plateaus = ang_alloc(2 * ((size_t)count + 2), sizeof *out, "plateaus of the transfer function", err);
+    if (!out) return false;
     /* Outside the table the values at its ends hold. */
-    float above = is_plateau(tables, count - 1) ? (float)count : NO_PLATEAU;
+    float above = ang_plateaus_has(tables, count - 1) ? (float)count : NO_PLATEAU;
     for (int i = count; i >= -1; i--) {
-        if (i < count && is_plateau(tables, i < 0 ? 0 : i)) above = (float)i;
-        prefix->plateaus[2 * ((size_t)i + 1)] = above;
+        if (i < count && ang_plateaus_has(tables, i < 0 ? 0 : i)) above = (float)i;
+        out[2 * ((size_t)i + 1)] = above;
     }
-    float below = is_plateau(tables, 0) ? -1.0f : -NO_PLATEAU;
+    float below = ang_plateaus_has(tables, 0) ? -1.0f : -NO_PLATEAU;
     for (int i = -1; i <= count; i++) {
-        if (i >= 0 && is_plateau(tables, i < count ? i : count - 1)) below = (float)i;
-        prefix->plateaus[2 * ((size_t)i + 1) + 1] = below;
+        if (i >= 0 && ang_plateaus_has(tables, i < count ? i : count - 1)) below = (float)i;
+        out[2 * ((size_t)i + 1) + 1] = below;
     }
     return true;
 }
@@ -60,7 +60,7 @@ ang_prefix *ang_prefix_create(const ang_transfer_tables *tables, const ang_trans
     if (!prefix) return NULL;
     prefix->intervals = tables->intervals;
     prefix->sums = ang_alloc(8 * ((size_t)tables->intervals + 1), sizeof *prefix->sums, what, err);
-    if (!prefix->sums || !fill_plateaus(prefix, tables, err)) {
+    if (!prefix->sums || !ang_plateaus_find(tables, &prefix->plateaus, err)) {
         ang_prefix_free(prefix);
         return NULL;
     }

@@ -11,9 +11,7 @@ typedef struct ang_prefix {
     float *sums;     /* (intervals + 1) * 8: at the left end of interval i int r kappa, int g kappa, int b kappa and
                         int kappa from the left end of the table, in 1/mm * intervals, as four upper parts of pairs of
                         floats and the four lower parts. Plateaus at opacity 1 add nothing */
-    float *plateaus; /* (intervals + 2) * 2: of interval i - 1, where the first and the last stand for what lies outside
-                        the table: the nearest interval of a plateau at or above it and that at or below it; beyond
-                        2^30 where there is none. NULL without any plateau */
+    float *plateaus; /* ang_plateaus_find */
     double greatest; /* mean extinction per mm of any interval that is no plateau */
 } ang_prefix;
 
@@ -21,5 +19,12 @@ typedef struct ang_prefix {
 ang_prefix *ang_prefix_create(const ang_transfer_tables *tables, const ang_transfer *transfer, double slope,
                               double intercept, ang_error *err);
 void ang_prefix_free(ang_prefix *prefix);
+
+/* Whether an interval is of a plateau at opacity 1. */
+bool ang_plateaus_has(const ang_transfer_tables *tables, int interval);
+/* (intervals + 2) * 2 numbers: of interval i - 1, where the first and the last stand for what lies outside the table:
+ * the nearest interval of a plateau at or above it and that at or below it; beyond 2^30 where there is none. NULL
+ * without any plateau. Free with free(). False with ANG_LIMIT. */
+bool ang_plateaus_find(const ang_transfer_tables *tables, float **plateaus, ang_error *err);
 
 #endif

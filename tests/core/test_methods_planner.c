@@ -101,6 +101,7 @@ static void errors_are_kept(void **state) {
     ang_scene scene = make_picture(volume, transfer);
     static const double limits[] = {8, 2, 0.5};
     double step = INFINITY;
+    const ang_method *before = NULL;
     for (size_t i = 0; i < 3; i++) {
         ang_planned planned = plan(gl, volume, &scene, NULL, limits[i], NAN);
         assert_true(planned.keeps_error);
@@ -110,8 +111,9 @@ static void errors_are_kept(void **state) {
         print_message("at most %g: %s, step %.3g, estimated %.3g, %.3g off\n", limits[i], planned.method->name,
                       planned.step_voxels, planned.error, off);
         assert_true(off <= limits[i]);
-        assert_true(planned.step_voxels <= step);
+        assert_true(planned.method != before || planned.step_voxels <= step);
         step = planned.step_voxels;
+        before = planned.method;
         planned.method->destroy(planned.renderer);
     }
     /* Beyond what floats can do: only the reference is left, or where that was not asked for a sentence. */
