@@ -14,6 +14,9 @@ enum { PROBE_SIDE = 64, PROBE_SIDE_REFERENCE = 10, MOST_METHODS = 8, MOST_ROUNDS
 /* Time for which a picture of some pixels is drawn again, the fastest of which counts. */
 static const double least_probe_ms = 50;
 
+/* How much worse than the worst pixel that is looked at the worst of all may be. */
+static const double beyond_looked = 2;
+
 /* Steps that are considered, from the coarsest: each has 1.4 times the samples of the one before. */
 static const double coarsest_step = 4;
 enum { STEPS = 16, STRIDES = 3, MOST_CANDIDATES = MOST_METHODS * STEPS * STRIDES };
@@ -210,11 +213,17 @@ static size_t list_candidates(const planning *p, ang_candidate *list) {
     return count;
 }
 
+/* The estimate that keeps the limit: of pixels that are not looked at the worst may be worse (docs/error.md). */
+static double estimate_limit(const planning *p) {
+    ang_scene looked = ang_error_subset(p->scene);
+    return looked.sampling.stride > 1 ? p->budget->max_error / beyond_looked : p->budget->max_error;
+}
+
 /* The step to try after one whose estimate is too great; 0 where no other can keep the limit. A step that was asked
  * for with its method goes as far as it can, so that the best within reach is known. */
 static double next_step(const planning *p, const ang_planned *out, bool asked) {
     const ang_error_estimate *e = &out->estimate;
-    double fixed = e->termination + e->filtering + e->arithmetic + out->between.max, limit = 0.9 * p->budget->max_error;
+    double fixed = e->termination + e->filtering + e->arithmetic + out->between.max, limit = 0.9 * estimate_limit(p);
     double step = ang_budget_step(fixed, e->step, finite_order(e), out->step_voxels, limit);
     double finest = finest_step(p, out->method);
     if (step < finest && !asked) return 0;
@@ -232,7 +241,7 @@ static bool verify(planning *p, bool asked, ang_planned *out, ang_error *err) {
                                      err))
             return false;
         out->error = ang_error_capped(out->estimate.levels + out->between.max);
-        out->keeps_error = out->error <= p->budget->max_error;
+        out->keeps_error = out->error <= estimate_limit(p);
         if (isnan(best.error) || out->error < best.error) best = *out;
         double step = out->keeps_error || isnan(out->error) ? 0 : next_step(p, out, asked);
         if (!(step > 0) || out->refinements == MOST_ROUNDS) break;
@@ -299,6 +308,11 @@ static void say_missed(const planning *p, ang_planned *out) {
         snprintf(out->missed, sizeof out->missed,
                  "--max-error %.6g: the error of this picture cannot be told with --method %s", p->budget->max_error,
                  out->method->name);
+    else if (!out->keeps_error && out->error <= p->budget->max_error)
+        snprintf(out->missed, sizeof out->missed,
+                 "--max-error %.6g cannot be promised: %.3g levels are estimated from some pixels, and others may be "
+                 "worse; no step of --method %s is better than %.3g voxels",
+                 p->budget->max_error, out->error, out->method->name, out->step_voxels);
     else if (!out->keeps_error)
         snprintf(out->missed, sizeof out->missed,
                  "--max-error %.6g cannot be kept: the best within reach is %.3g levels by --method %s at a step of "
