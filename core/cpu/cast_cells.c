@@ -238,20 +238,7 @@ INLINE void shade_seen(const ang_cast *cast, tile *t, const seen *s) {
     }
     spot at = find_spot(cast, place);
     shade(cast, &at, direction, light);
-    for (int c = 0; c < 3; c++) light[c] *= added;
-    light[3] = added;
-    float each[4 * LANES];
-    int to[LANES];
-    lanes_transpose_back(light, each);
-    lanes_store_int(to, ray);
-    typedef float four __attribute__((vector_size(16)));
-    for (int l = 0; l < LANES; l++) {
-        four sum, more;
-        memcpy(&sum, t->light[to[l]], sizeof sum);
-        memcpy(&more, each + 4 * l, sizeof more);
-        sum += more;
-        memcpy(t->light[to[l]], &sum, sizeof sum);
-    }
+    add_to_rays(t, ray, added, light);
 }
 
 INLINE void note_seen(const ang_cast *cast, tile *t, seen *s, unsigned bits, lanes_int ray, lanes added,

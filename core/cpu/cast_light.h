@@ -31,20 +31,7 @@ INLINE void add_light(const ang_cast *cast, tile *t, const seen *s, ang_cast_kin
         spot at = find_spot(cast, place);
         shade(cast, &at, direction, light);
     }
-    for (int c = 0; c < 3; c++) light[c] *= added;
-    light[3] = added;
-    float each[4 * LANES];
-    int whose[LANES];
-    lanes_transpose_back(light, each);
-    lanes_store_int(whose, ray);
-    typedef float four __attribute__((vector_size(16)));
-    for (int l = 0; l < LANES; l++) {
-        four sum, more;
-        memcpy(&sum, t->light[whose[l]], sizeof sum);
-        memcpy(&more, each + 4 * l, sizeof more);
-        sum += more;
-        memcpy(t->light[whose[l]], &sum, sizeof sum);
-    }
+    add_to_rays(t, ray, added, light);
 }
 
 INLINE void move_down(seen *s, ang_cast_kind kind) {

@@ -34,6 +34,25 @@ typedef struct tile {
     int active[RAYS + LANES], actives; /* rays not yet at their ends */
 } tile;
 
+/* Adds the light of LANES samples, of which `added` arrives, each to its ray. Colours are in `light`, whose last takes
+ * `added`; lanes may share a ray. */
+INLINE void add_to_rays(tile *t, lanes_int ray, lanes added, lanes light[4]) {
+    for (int c = 0; c < 3; c++) light[c] *= added;
+    light[3] = added;
+    float each[4 * LANES];
+    int whose[LANES];
+    lanes_transpose_back(light, each);
+    lanes_store_int(whose, ray);
+    typedef float four __attribute__((vector_size(16)));
+    for (int l = 0; l < LANES; l++) {
+        four sum, more;
+        memcpy(&sum, t->light[whose[l]], sizeof sum);
+        memcpy(&more, each + 4 * l, sizeof more);
+        sum += more;
+        memcpy(t->light[whose[l]], &sum, sizeof sum);
+    }
+}
+
 INLINE int ray_x(int ray) { return (ray & 3) | (ray >> 4 & 3) << 2; }
 INLINE int ray_y(int ray) { return (ray >> 2 & 3) | (ray >> 6) << 2; }
 

@@ -1,33 +1,13 @@
 /* Rays that go from cell to cell: against the reference and closed forms; every width of SIMD gives the same bits. */
-#include "tests/core/scenes.h"
+#include "tests/core/casting.h"
 
 #include "core/cpu/method_cpu.h"
 #include "core/error/metrics.h"
 #include "core/render/planner.h"
 
-static const ang_render_options exact = {.step_voxels = 0.5, .termination = 1};
-
-static ang_renderer *open_renderer(const ang_method *method, const ang_volume *volume) {
-    ang_error err = {0};
-    ang_renderer *renderer = method->create(NULL, volume, &exact, &err);
-    if (!renderer) fail_msg("%s: %s", method->name, err.message);
-    return renderer;
-}
-
-static ang_image draw(const ang_method *method, ang_renderer *renderer, const ang_scene *scene,
-                      const ang_render_options *options, ang_frame_stats *stats) {
-    ang_error err = {0};
-    ang_image image;
-    assert_true(ang_image_create(&image, scene->width, scene->height, &err));
-    if (!method->render(renderer, scene, options, &image, stats, NULL, &err))
-        fail_msg("%s: %s", method->name, err.message);
-    for (int i = 0; i < 4 * image.width * image.height; i++) assert_true(isfinite(image.rgba[i]));
-    return image;
-}
-
 static ang_image draw_anew(const ang_method *method, const ang_volume *volume, const ang_scene *scene,
                            const ang_render_options *options, ang_frame_stats *stats) {
-    ang_renderer *renderer = open_renderer(method, volume);
+    ang_renderer *renderer = open_renderer(method, NULL, volume);
     ang_image image = draw(method, renderer, scene, options, stats);
     method->destroy(renderer);
     return image;
@@ -150,7 +130,7 @@ static void widths_change_no_bit(void **state) {
     int count = ang_cast_widths(widths);
     ang_volume *volume = sheared_volume(sparse_value);
     ang_transfer *transfer = vessels();
-    ang_renderer *renderer = open_renderer(&ang_method_adaptive, volume);
+    ang_renderer *renderer = open_renderer(&ang_method_adaptive, NULL, volume);
     for (int which = 0; which < SCENES; which++)
         for (int mode = -1; mode <= ANG_MODE_ISO; mode++) {
             ang_scene scene = make_scene(which, volume, transfer);
@@ -182,7 +162,7 @@ static void skipping_changes_nothing(void **state) {
     (void)state;
     ang_volume *volume = sheared_volume(sparse_value);
     ang_transfer *transfer = vessels();
-    ang_renderer *renderer = open_renderer(&ang_method_adaptive, volume);
+    ang_renderer *renderer = open_renderer(&ang_method_adaptive, NULL, volume);
     for (int which = 0; which < 2 * SCENES; which++)
         for (double step = 0.1; step < 2; step *= 3) {
             ang_scene scene = make_scene(which % SCENES, volume, transfer);
@@ -205,7 +185,7 @@ static void nothing_is_kept_that_has_changed(void **state) {
     (void)state;
     ang_volume *volume = sheared_volume(sparse_value);
     ang_transfer *transfer = vessels(), *flat = constant_transfer(0.05, 1, 0.5, 0.25);
-    ang_renderer *kept = open_renderer(&ang_method_adaptive, volume);
+    ang_renderer *kept = open_renderer(&ang_method_adaptive, NULL, volume);
     for (int turn = 0; turn < 12; turn++) {
         ang_scene scene = make_scene(turn % SCENES, volume, turn % 3 ? transfer : flat);
         scene.mode = turn % 4 == 3 ? ANG_MODE_MIP : ANG_MODE_DVR;

@@ -2,6 +2,7 @@
  * tell it to, under the name of the real one (bad_codec.c). */
 #define FOLDER ANG_TEST_TMP "/sandbox"
 #include "tests/io/small_dicom.h"
+#include "tests/io/small_png.h"
 
 #include <sys/wait.h>
 
@@ -156,38 +157,6 @@ static void without_its_program_there_is_a_way_out(void **state) {
 
 #ifdef ANG_WITH_OIIO
 
-static void put_big(uint8_t *at, uint32_t value) {
-    for (int i = 0; i < 4; i++) at[i] = (uint8_t)(value >> (24 - 8 * i));
-}
-
-static void put_chunk(FILE *out, const char *name, const uint8_t *bytes, size_t length) {
-    uint8_t number[4];
-    put_big(number, (uint32_t)length);
-    fwrite(number, 1, 4, out);
-    fwrite(name, 1, 4, out);
-    fwrite(bytes, 1, length, out);
-    put_big(number, (uint32_t)crc32(crc32(0, (const Bytef *)name, 4), bytes, (uInt)length));
-    fwrite(number, 1, 4, out);
-}
-
-/* A grey PNG (ISO 15948) of 16 bits, 3 by 2 pixels of rising values. */
-static void write_png(const char *path, int first) {
-    uint8_t head[13] = {0, 0, 0, 3, 0, 0, 0, 2, 16, 0, 0, 0, 0}, rows[14] = {0}, packed[64];
-    for (int i = 0; i < 6; i++) {
-        rows[1 + i / 3 * 7 + i % 3 * 2] = (uint8_t)((first + i) >> 8);
-        rows[2 + i / 3 * 7 + i % 3 * 2] = (uint8_t)(first + i);
-    }
-    uLongf length = sizeof packed;
-    assert_int_equal(compress(packed, &length, rows, sizeof rows), Z_OK);
-    FILE *out = fopen(path, "wb");
-    assert_non_null(out);
-    fwrite("\x89PNG\r\n\x1A\n", 1, 8, out);
-    put_chunk(out, "IHDR", head, sizeof head);
-    put_chunk(out, "IDAT", packed, length);
-    put_chunk(out, "IEND", head, 0);
-    fclose(out);
-}
-
 /* With the real reader of pictures. */
 static void pictures_are_the_same_either_way(void **state) {
     (void)state;
@@ -196,8 +165,13 @@ static void pictures_are_the_same_either_way(void **state) {
     for (int i = 0; i < 4; i++) {
         char path[512];
         snprintf(path, sizeof path, SERIES "/%d.png", i);
-        write_png(path, 300 * i + 250);
-        for (int k = 0; k < 6; k++) values[6 * i + k] = (uint16_t)(300 * i + 250 + k);
+        uint8_t samples[12]; /* big endian */
+        for (int k = 0; k < 6; k++) {
+            values[6 * i + k] = (uint16_t)(300 * i + 250 + k);
+            samples[2 * k] = (uint8_t)(values[6 * i + k] >> 8);
+            samples[2 * k + 1] = (uint8_t)values[6 * i + k];
+        }
+        write_png(path, 3, 2, 16, 1, samples);
     }
     for (int i = 0; i < 2; i++) {
         ang_load_options how = {.no_sandbox = i == 1};

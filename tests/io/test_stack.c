@@ -1,53 +1,23 @@
 /* Stacks of pictures written here, byte by byte, against what was written. */
 #define FOLDER ANG_TEST_TMP "/stack"
+#include "tests/io/small_png.h"
 #include "tests/io/written.h"
 
 #ifdef ANG_WITH_OIIO
-
-static void put_chunk(FILE *out, const char *type, const uint8_t *data, size_t size) {
-    uint8_t head[8] = {(uint8_t)(size >> 24), (uint8_t)(size >> 16), (uint8_t)(size >> 8), (uint8_t)size};
-    memcpy(head + 4, type, 4);
-    uLong crc = crc32(crc32(0, head + 4, 4), data, (uInt)size);
-    uint8_t tail[4] = {(uint8_t)(crc >> 24), (uint8_t)(crc >> 16), (uint8_t)(crc >> 8), (uint8_t)crc};
-    fwrite(head, 1, 8, out);
-    fwrite(data, 1, size, out);
-    fwrite(tail, 1, 4, out);
-}
-
-/* A PNG (ISO 15948) of `bits` a sample and 1 or 3 channels; `samples` big endian, rows from the top. */
-static void write_png(const char *name, int wide, int high, int bits, int channels, const uint8_t *samples) {
-    uint8_t header[13] = {0, 0, 0, (uint8_t)wide, 0, 0, 0, (uint8_t)high, (uint8_t)bits, channels == 3 ? 2 : 0};
-    size_t row = (size_t)(wide * channels * bits / 8);
-    uint8_t raw[4096], packed[4096];
-    uLongf size = sizeof packed;
-    for (int y = 0; y < high; y++) {
-        raw[(row + 1) * (size_t)y] = 0; /* no filter */
-        memcpy(raw + (row + 1) * (size_t)y + 1, samples + row * (size_t)y, row);
-    }
-    assert_int_equal(compress(packed, &size, raw, (row + 1) * (size_t)high), Z_OK);
-    char path[1024];
-    snprintf(path, sizeof path, FOLDER "/%s", name);
-    FILE *out = fopen(path, "wb");
-    assert_non_null(out);
-    fwrite("\x89PNG\r\n\x1A\n", 1, 8, out);
-    put_chunk(out, "IHDR", header, sizeof header);
-    put_chunk(out, "IDAT", packed, size);
-    put_chunk(out, "IEND", header, 0);
-    fclose(out);
-}
 
 /* The planes as 16-bit pictures; where `offset` is 1000 the values are no negative numbers. */
 static void write_pngs(const char *pattern, int first, int step, int offset) {
     for (int z = 0; z < planes; z++) {
         uint8_t samples[2 * columns * rows];
-        char name[64];
+        char name[64], path[512];
         for (int i = 0; i < columns * rows; i++) {
             int value = expected(i % columns, i / columns, z, 0) + offset;
             samples[2 * i] = (uint8_t)(value >> 8);
             samples[2 * i + 1] = (uint8_t)value;
         }
         snprintf(name, sizeof name, pattern, first + z * step);
-        write_png(name, columns, rows, 16, 1, samples);
+        snprintf(path, sizeof path, FOLDER "/%s", name);
+        write_png(path, columns, rows, 16, 1, samples);
     }
 }
 
@@ -121,7 +91,7 @@ static void what_is_assumed_without(void **state) {
     ang_volume_free(v);
     ang_load_report_clear(&report);
     uint8_t grey[2 * columns * rows] = {0};
-    write_png("bare/im9.png", columns, rows, 16, 1, grey);
+    write_png(FOLDER "/bare/im9.png", columns, rows, 16, 1, grey);
     expect_note("bare", true, "leave out 2");
     ang_error err = {0};
     assert_null(ang_load(FOLDER "/bare", &(ang_load_options){.strict = true}, &report, NULL, &err));
@@ -145,8 +115,8 @@ static void eight_bits(void **state) {
     (void)state;
     fresh_folder(FOLDER "/byte");
     const uint8_t first[6] = {0, 1, 2, 128, 254, 255}, second[6] = {9, 8, 7, 6, 5, 4};
-    write_png("byte/a1.png", 3, 2, 8, 1, first);
-    write_png("byte/a2.png", 3, 2, 8, 1, second);
+    write_png(FOLDER "/byte/a1.png", 3, 2, 8, 1, first);
+    write_png(FOLDER "/byte/a2.png", 3, 2, 8, 1, second);
     ang_load_report report;
     ang_volume *v = load(FOLDER "/byte", &report);
     for (int i = 0; i < 12; i++)
@@ -159,14 +129,14 @@ static void refused(void **state) {
     (void)state;
     fresh_folder(FOLDER "/bad");
     uint8_t samples[3 * 6] = {0};
-    write_png("bad/a1.png", 3, 2, 8, 3, samples);
+    write_png(FOLDER "/bad/a1.png", 3, 2, 8, 3, samples);
     must_fail(FOLDER "/bad", ANG_INPUT, "a1.png: is in colour");
     must_fail(FOLDER "/bad/a1.png", ANG_INPUT, "a1.png: is in colour");
     fresh_folder(FOLDER "/bad");
-    write_png("bad/a1.png", 3, 2, 8, 1, samples);
-    write_png("bad/a2.png", 2, 3, 8, 1, samples);
+    write_png(FOLDER "/bad/a1.png", 3, 2, 8, 1, samples);
+    write_png(FOLDER "/bad/a2.png", 2, 3, 8, 1, samples);
     must_fail(FOLDER "/bad", ANG_INPUT, "a2.png: is 2 x 3");
-    write_png("bad/a2.png", 3, 2, 16, 1, samples);
+    write_png(FOLDER "/bad/a2.png", 3, 2, 16, 1, samples);
     must_fail(FOLDER "/bad", ANG_INPUT, "a2.png: is 3 x 2 of 16 bit");
     write_parts("bad/a2.png", "\x89PNG\r\n\x1A\n", "damaged", 7);
     must_fail(FOLDER "/bad", ANG_INPUT, "a2.png");
