@@ -204,6 +204,15 @@ INLINE void lanes_transpose_back(const lanes in[4], float out[4 * LANES]) {
 /* Keeps the compiler from taking the numbers out of the register one by one, which is slower than to store them all. */
 #define LANES_IN_MEMORY(places) __asm__("" : "+m"(places))
 
+/* Keeps the compiler from putting off the loads that make `x`, with all their addresses, to where it is used. */
+#if defined(__AVX512F__)
+#define LANES_LOADED(x) __asm__("" : "+v"(x))
+#elif defined(__SSE2__)
+#define LANES_LOADED(x) __asm__("" : "+x"(x))
+#else
+#define LANES_LOADED(x) (void)(x)
+#endif
+
 /* Loads lane by lane: measured faster than gather instructions (docs/measured.md). */
 INLINE int load_word(const uint16_t *from) {
     int word;
@@ -213,9 +222,11 @@ INLINE int load_word(const uint16_t *from) {
 /* Of every lane the pairs of neighbours at base[0][place], base[1][place], ...: the lower half of a word lies first. */
 INLINE void lanes_words(const uint16_t *const base[4], const int place[LANES], lanes_int out[4]) {
     quad x[LANES];
-    for (int l = 0; l < LANES; l++)
+    for (int l = 0; l < LANES; l++) {
         x[l] = (quad){load_word(base[0] + place[l]), load_word(base[1] + place[l]), load_word(base[2] + place[l]),
                       load_word(base[3] + place[l])};
+        LANES_LOADED(x[l]);
+    }
     lanes_transpose(x, out);
 }
 /* Eight bytes from each. */
@@ -233,7 +244,10 @@ INLINE quad load_halves(const void *first, const void *second) {
 /* Of every lane the four neighbours at base[0][place - 1] and base[1][place - 1], two to a word. */
 INLINE void lanes_rows_of_four(const uint16_t *const base[2], const int place[LANES], lanes_int out[4]) {
     quad x[LANES];
-    for (int l = 0; l < LANES; l++) x[l] = load_halves(base[0] + place[l] - 1, base[1] + place[l] - 1);
+    for (int l = 0; l < LANES; l++) {
+        x[l] = load_halves(base[0] + place[l] - 1, base[1] + place[l] - 1);
+        LANES_LOADED(x[l]);
+    }
     lanes_transpose(x, out);
 }
 /* Of every lane the pairs at base[a], base[a + offset], base[b], base[b + offset]. */
@@ -246,6 +260,7 @@ INLINE void lanes_two_words(const uint16_t *base, lanes_int a, lanes_int b, ptrd
     for (int l = 0; l < LANES; l++) {
         const uint16_t *first = base + place[0][l], *second = base + place[1][l];
         x[l] = (quad){load_word(first), load_word(first + offset), load_word(second), load_word(second + offset)};
+        LANES_LOADED(x[l]);
     }
     lanes_transpose(x, out);
 }
@@ -256,8 +271,10 @@ INLINE lanes lanes_floats(const float *base, lanes_int at) {
     quad x[LANES / 4];
     lanes_store_int(place, at);
     LANES_IN_MEMORY(place);
-    for (int l = 0; l < LANES; l += 4)
+    for (int l = 0; l < LANES; l += 4) {
         x[l / 4] = (quad)(four){base[place[l]], base[place[l + 1]], base[place[l + 2]], base[place[l + 3]]};
+        LANES_LOADED(x[l / 4]);
+    }
     return (lanes)lanes_join(x, 1);
 }
 INLINE lanes_int lanes_ints(const void *base, lanes_int at) { return (lanes_int)lanes_floats(base, at); }
@@ -267,8 +284,10 @@ INLINE lanes_int lanes_bytes(const uint8_t *base, lanes_int at) {
     quad x[LANES / 4];
     lanes_store_int(place, at);
     LANES_IN_MEMORY(place);
-    for (int l = 0; l < LANES; l += 4)
+    for (int l = 0; l < LANES; l += 4) {
         x[l / 4] = (quad){base[place[l]], base[place[l + 1]], base[place[l + 2]], base[place[l + 3]]};
+        LANES_LOADED(x[l / 4]);
+    }
     return lanes_join(x, 1);
 }
 /* The pairs base[2 at], base[2 at + 1]. */
@@ -277,8 +296,10 @@ INLINE void lanes_pairs(const float *base, lanes_int at, lanes *first, lanes *se
     quad x[LANES / 2];
     lanes_store_int(place, at);
     LANES_IN_MEMORY(place);
-    for (int l = 0; l < LANES; l += 2)
+    for (int l = 0; l < LANES; l += 2) {
         x[l / 2] = load_halves(base + 2 * (ptrdiff_t)place[l], base + 2 * (ptrdiff_t)place[l + 1]);
+        LANES_LOADED(x[l / 2]);
+    }
     lanes a = (lanes)lanes_join(x, 2), b = (lanes)lanes_join(x + 1, 2);
     *first = SHUFFLE(a, b, 0, 2, 4, 6);
     *second = SHUFFLE(a, b, 1, 3, 5, 7);
@@ -290,7 +311,10 @@ INLINE void lanes_fours(const float *base, lanes_int at, lanes out[4]) {
     lanes_int four[4];
     lanes_store_int(place, at);
     LANES_IN_MEMORY(place);
-    for (int l = 0; l < LANES; l++) memcpy(&x[l], base + 4 * (ptrdiff_t)place[l], sizeof *x);
+    for (int l = 0; l < LANES; l++) {
+        memcpy(&x[l], base + 4 * (ptrdiff_t)place[l], sizeof *x);
+        LANES_LOADED(x[l]);
+    }
     lanes_transpose(x, four);
     for (int i = 0; i < 4; i++) out[i] = (lanes)four[i];
 }
