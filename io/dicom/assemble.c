@@ -18,7 +18,7 @@
 /* What is known of one slice once it is decoded. */
 typedef struct decoded {
     ang_dicom_map map;
-    bool has_padding;
+    bool has_padding, masked;
     uint16_t padding_first, padding_last; /* declared */
     uint16_t least, greatest;             /* of its values, declared padding left out; least > greatest: none */
     size_t padding_count;
@@ -63,15 +63,15 @@ static void decode_slices(void *context, size_t begin, size_t end, int worker) {
         if (atomic_load_explicit(&job->stop, memory_order_relaxed)) return;
         const ang_dicom_slice *slice = &stack->slices[stack->order[i]];
         uint16_t *data = job->volume->data + i * plane;
+        decoded *out = &job->decoded[i];
         ang_error why = {0};
         if (!ang_dicom_decode(stack->paths[slice->file], stack->labels[slice->file], slice, stack->sandbox, data,
-                              &why)) {
+                              &out->masked, &why)) {
             job->failed[i] = true;
             job->reasons[i] = strdup(why.message);
             atomic_store(&job->any_failed, true);
             continue;
         }
-        decoded *out = &job->decoded[i];
         out->map = ang_dicom_map_of(slice);
         out->has_padding = ang_dicom_padding(slice, &out->padding_first, &out->padding_last);
         measure(data, plane, out);
@@ -190,6 +190,16 @@ static void report_map(const ang_dicom_stack *stack, const ang_dicom_map *maps, 
             return;
     report->slope = maps[0].slope;
     report->intercept = maps[0].intercept + (is_signed ? 32768 * maps[0].slope : 0);
+}
+
+static void note_masked(const ang_dicom_stack *stack, const decoded *decoded, ang_load_report *report) {
+    int masked = 0;
+    for (size_t i = 0; i < stack->count; i++) masked += decoded[i].masked;
+    if (masked > 0)
+        ang_notes_add(
+            &report->assumptions,
+            "%d slice%s with bits set outside the %d of BitsStored and HighBit, as old overlays are: left out", masked,
+            ang_plural(masked), stack->slices[stack->order[0]].bits_stored);
 }
 
 /* Declared padding and rescale, then padding that nobody declared. */
@@ -349,6 +359,7 @@ ang_volume *ang_dicom_assemble(const ang_dicom_stack *stack, ang_load_report *re
         ok = ang_fail(err, ANG_INPUT, "some slices cannot be decoded");
     if (ok) {
         report->stored_crc32 = join_checksums(decoded, stack->count, plane_size(volume));
+        note_masked(stack, decoded, report);
         ok = finish_values(stack, volume, decoded, report, err);
     }
     if (ok && stack->grid->interpolates) {

@@ -93,7 +93,7 @@ failed:
     return NULL;
 }
 
-static bool decode_rle(const uint8_t *stream, size_t length, const ang_dicom_slice *slice, uint16_t *out,
+static bool decode_rle(const uint8_t *stream, size_t length, const ang_dicom_slice *slice, uint16_t *out, bool *masked,
                        const char *label, ang_error *err) {
     ang_dicom_words words = ang_dicom_words_of(slice);
     size_t count = (size_t)slice->rows * (size_t)slice->columns;
@@ -101,7 +101,7 @@ static bool decode_rle(const uint8_t *stream, size_t length, const ang_dicom_sli
     if (!raw) return false;
     bool ok = ang_dicom_rle(stream, length, count, words.bytes, raw);
     if (ok)
-        ang_dicom_convert(raw, count, words, out);
+        *masked = ang_dicom_convert(raw, count, words, out);
     else
         ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData: its run lengths are damaged", label);
     free(raw);
@@ -109,7 +109,7 @@ static bool decode_rle(const uint8_t *stream, size_t length, const ang_dicom_sli
 }
 
 static bool decode_stream(const uint8_t *stream, size_t length, const ang_dicom_slice *slice, ang_sandbox *sandbox,
-                          uint16_t *out, const char *label, ang_error *err) {
+                          uint16_t *out, bool *masked, const char *label, ang_error *err) {
 #ifdef ANG_WITH_GDCM
     ang_dicom_stream header;
     if (!ang_dicom_stream_header(stream, length, &header))
@@ -138,26 +138,27 @@ static bool decode_stream(const uint8_t *stream, size_t length, const ang_dicom_
     bool ok = sandbox ? ang_sandbox_decode(sandbox, stream, length, &frame, raw, size, &why)
                       : ang_codec_decode(stream, length, &frame, raw, size, &why);
     if (ok)
-        ang_dicom_convert(raw, count, words, out);
+        *masked = ang_dicom_convert(raw, count, words, out);
     else
         ang_fail(err, why.code, "%s: %s", label, why.message);
     if (raw != out) free(raw);
     return ok;
 #else
-    (void)stream, (void)length, (void)sandbox, (void)out;
+    (void)stream, (void)length, (void)sandbox, (void)out, (void)masked;
     return ang_fail(err, ANG_INPUT, "%s: compressed pixels (transfer syntax %s): this build has no GDCM to decode them",
                     label, slice->transfer_syntax);
 #endif
 }
 
-static bool decode_native(int fd, const ang_dicom_slice *slice, uint16_t *out, const char *label, ang_error *err) {
+static bool decode_native(int fd, const ang_dicom_slice *slice, uint16_t *out, bool *masked, const char *label,
+                          ang_error *err) {
     ang_dicom_words words = ang_dicom_words_of(slice);
     size_t count = (size_t)slice->rows * (size_t)slice->columns, size = count * (size_t)words.bytes;
     void *raw = words.bytes == 2 ? out : ang_alloc(count, (size_t)words.bytes, "a slice", err);
     if (!raw) return false;
     bool ok = read_all(fd, raw, size, slice->pixel_offset);
     if (ok)
-        ang_dicom_convert(raw, count, words, out);
+        *masked = ang_dicom_convert(raw, count, words, out);
     else
         ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is cut off", label);
     if (raw != out) free(raw);
@@ -165,8 +166,8 @@ static bool decode_native(int fd, const ang_dicom_slice *slice, uint16_t *out, c
 }
 
 /* Walks to the pixels of a deflated data set anew: keeping them since the header was read would cost a volume. */
-static bool decode_deflated(const char *path, const ang_dicom_slice *slice, uint16_t *out, const char *label,
-                            ang_error *err) {
+static bool decode_deflated(const char *path, const ang_dicom_slice *slice, uint16_t *out, bool *masked,
+                            const char *label, ang_error *err) {
     ang_dicom_reader *reader = ang_alloc(1, sizeof *reader, "a file's header", err);
     if (!reader) return false;
     bool ok = ang_dicom_open(reader, path, label, err) == ANG_DICOM_FOUND;
@@ -174,28 +175,31 @@ static bool decode_deflated(const char *path, const ang_dicom_slice *slice, uint
     size_t count = (size_t)slice->rows * (size_t)slice->columns, size = count * (size_t)words.bytes;
     if (ok && (!reader->memory || slice->pixel_offset > reader->size || reader->size - slice->pixel_offset < size))
         ok = ang_fail(err, ANG_INPUT, "%s: (7FE0,0010) PixelData is cut off", label);
-    if (ok) ang_dicom_convert(reader->memory + slice->pixel_offset, count, words, out);
+    if (ok) *masked = ang_dicom_convert(reader->memory + slice->pixel_offset, count, words, out);
     ang_dicom_close(reader);
     free(reader);
     return ok;
 }
 
 bool ang_dicom_decode(const char *path, const char *label, const ang_dicom_slice *slice, ang_sandbox *sandbox,
-                      uint16_t *out, ang_error *err) {
-    if (slice->coding == ANG_DICOM_DEFLATED) return decode_deflated(path, slice, out, label, err);
+                      uint16_t *out, bool *masked, ang_error *err) {
+    bool unasked;
+    if (!masked) masked = &unasked;
+    *masked = false;
+    if (slice->coding == ANG_DICOM_DEFLATED) return decode_deflated(path, slice, out, masked, label, err);
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0) return ang_fail(err, ANG_INPUT, "%s: %s", label, strerror(errno));
     bool ok;
     if (slice->coding == ANG_DICOM_NATIVE || slice->coding == ANG_DICOM_BIG_ENDIAN) {
-        ok = decode_native(fd, slice, out, label, err);
+        ok = decode_native(fd, slice, out, masked, label, err);
     } else {
         struct stat status;
         size_t length = 0;
         uint64_t size = fstat(fd, &status) == 0 ? (uint64_t)status.st_size : 0;
         uint8_t *stream = read_fragments(fd, slice, size, &length, label, err);
-        ok =
-            stream && (slice->coding == ANG_DICOM_RLE ? decode_rle(stream, length, slice, out, label, err)
-                                                      : decode_stream(stream, length, slice, sandbox, out, label, err));
+        ok = stream &&
+             (slice->coding == ANG_DICOM_RLE ? decode_rle(stream, length, slice, out, masked, label, err)
+                                             : decode_stream(stream, length, slice, sandbox, out, masked, label, err));
         free(stream);
     }
     close(fd);

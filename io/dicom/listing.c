@@ -32,7 +32,8 @@ static bool read_pixels(comparison *comparison, size_t index, uint16_t *pixels, 
     const char *label = folder->labels[slice->file];
     digest *digest = &comparison->digests[index];
     ang_error why = {0};
-    digest->readable = ang_dicom_decode(folder->paths[slice->file], label, slice, comparison->sandbox, pixels, &why);
+    digest->readable =
+        ang_dicom_decode(folder->paths[slice->file], label, slice, comparison->sandbox, pixels, NULL, &why);
     if (!digest->readable && why.code == ANG_LIMIT) return ang_fail(err, ANG_LIMIT, "%s", why.message);
     if (!digest->readable) ang_dicom_warn_file(comparison->warnings, label, why.message);
     size_t bytes = (size_t)slice->rows * (size_t)slice->columns * sizeof *pixels;

@@ -11,29 +11,41 @@ ang_dicom_words ang_dicom_words_of(const ang_dicom_slice *slice) {
                              .big_endian = slice->coding == ANG_DICOM_BIG_ENDIAN};
 }
 
-static uint16_t convert_word(uint32_t word, int shift, uint32_t mask, uint32_t sign, uint32_t bias) {
-    uint32_t value = word >> shift & mask;
-    return (uint16_t)((value ^ sign) - sign + bias); /* two's complement: flips the sign bit, then takes it off */
+/* Where a word's stored bits lie. */
+typedef struct field {
+    int shift;
+    uint32_t mask, sign, bias, all; /* of the shifted value, and all bits of a word */
+} field;
+
+/* Sets bits of *other where the word has some that the value does not account for. */
+static inline uint16_t convert_word(uint32_t word, field f, uint32_t *other) {
+    uint32_t bits = word >> f.shift & f.mask;
+    uint32_t value = (bits ^ f.sign) - f.sign; /* two's complement: flips the sign bit, then takes it off */
+    uint32_t plain = (bits << f.shift ^ word) & f.all, extended = (value << f.shift ^ word) & f.all;
+    *other |= plain < extended ? plain : extended; /* 0 if either is */
+    return (uint16_t)(value + f.bias);
 }
 
-void ang_dicom_convert(const void *raw, size_t count, ang_dicom_words words, uint16_t *out) {
-    int shift = words.high_bit - words.bits_stored + 1;
-    uint32_t mask = (UINT32_C(1) << words.bits_stored) - 1;
-    uint32_t sign = words.is_signed ? UINT32_C(1) << (words.bits_stored - 1) : 0;
-    uint32_t bias = words.is_signed ? 32768 : 0;
+bool ang_dicom_convert(const void *raw, size_t count, ang_dicom_words words, uint16_t *out) {
+    const field f = {.shift = words.high_bit - words.bits_stored + 1,
+                     .mask = (UINT32_C(1) << words.bits_stored) - 1,
+                     .sign = words.is_signed ? UINT32_C(1) << (words.bits_stored - 1) : 0,
+                     .bias = words.is_signed ? 32768 : 0,
+                     .all = UINT32_MAX >> (32 - 8 * words.bytes)};
     const uint8_t *p = raw;
+    uint32_t other = 0;
     bool little = true;
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
     little = false;
 #endif
     if (words.bytes == 2 && !words.big_endian && little) {
-        if (mask == 0xFFFF && !sign) {
+        if (f.mask == 0xFFFF && !f.sign) {
             if (raw != out) memmove(out, raw, count * 2);
-            return;
+            return false;
         }
         if (raw == out) { /* the common case, in place: the compiler makes vector code of it */
-            for (size_t i = 0; i < count; i++) out[i] = convert_word(out[i], shift, mask, sign, bias);
-            return;
+            for (size_t i = 0; i < count; i++) out[i] = convert_word(out[i], f, &other);
+            return other != 0;
         }
     }
     for (size_t i = 0; i < count; i++) {
@@ -41,8 +53,9 @@ void ang_dicom_convert(const void *raw, size_t count, ang_dicom_words words, uin
         const uint8_t *q = p + i * (size_t)words.bytes;
         for (int b = 0; b < words.bytes; b++)
             word |= (uint32_t)q[words.big_endian ? words.bytes - 1 - b : b] << (8 * b);
-        out[i] = convert_word(word, shift, mask, sign, bias);
+        out[i] = convert_word(word, f, &other);
     }
+    return other != 0;
 }
 
 ang_dicom_map ang_dicom_map_of(const ang_dicom_slice *slice) {

@@ -21,8 +21,9 @@ typedef struct ang_dicom_words {
 ang_dicom_words ang_dicom_words_of(const ang_dicom_slice *slice);
 
 /* `count` words at `raw` (any alignment) become values at `out`: the bits below and at HighBit, sign-extended where
- * signed, plus 32768 where signed (PS3.5 8.1.1). `raw` may be `out` where a word has two bytes. */
-void ang_dicom_convert(const void *raw, size_t count, ang_dicom_words words, uint16_t *out);
+ * signed, plus 32768 where signed (PS3.5 8.1.1). `raw` may be `out` where a word has two bytes. Returns whether other
+ * bits were set: copies of the sign where signed are none, overlays of old files are. */
+bool ang_dicom_convert(const void *raw, size_t count, ang_dicom_words words, uint16_t *out);
 
 /* HU = slope * value + intercept, of the values that ang_dicom_convert writes. */
 typedef struct ang_dicom_map {

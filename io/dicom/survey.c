@@ -17,7 +17,7 @@ static ang_raw_slice read_middle(const ang_dicom_listing *listing, const ang_dic
     *values = readable ? ang_alloc(pixels, sizeof **values, "a slice", NULL) : NULL;
     const char *path = folder->paths[slice->file], *label = folder->labels[slice->file];
     ang_error unread = {0};
-    if (*values && !ang_dicom_decode(path, label, slice, listing->sandbox, *values, &unread)) {
+    if (*values && !ang_dicom_decode(path, label, slice, listing->sandbox, *values, NULL, &unread)) {
         free(*values);
         *values = NULL;
     }

@@ -69,7 +69,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (found != ANG_DICOM_FOUND || slice.refusal[0]) return 0;
     uint16_t *out = malloc((size_t)slice.rows * (size_t)slice.columns * sizeof *out);
     fuzz_expect(out != NULL, "no memory");
-    bool ok = ang_dicom_decode(path, "a.dcm", &slice, fuzz_sandbox(), out, &err);
+    bool ok = ang_dicom_decode(path, "a.dcm", &slice, fuzz_sandbox(), out, NULL, &err);
     fuzz_expect(ok || err.message[0], "refused without a reason");
     free(out);
     return 0;

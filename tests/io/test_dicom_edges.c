@@ -127,6 +127,13 @@ static void test_fragments_in_a_deflated_data_set(void **state) {
     must_fail(FOLDER, ANG_INPUT, "transfer syntax 1.2.840.10008.1.2.1.99: not supported");
 }
 
+static int told_of_overlays(const ang_load_report *report) {
+    int told = 0;
+    for (size_t i = 0; i < report->assumptions.count; i++)
+        told += strstr(report->assumptions.text[i], "1 slice with bits set outside the 12 of BitsStored") != NULL;
+    return told;
+}
+
 static void test_overlays_in_high_bits(void **state) {
     (void)state;
     for (int is_signed = 0; is_signed < 2; is_signed++) {
@@ -141,8 +148,17 @@ static void test_overlays_in_high_bits(void **state) {
             if (is_signed) stored -= 4096;
             assert_true(fabs(hu_at(v, i % width, i / width, 0) - (stored - 1024)) < 1e-9);
         }
+        assert_int_equal(told_of_overlays(&report), 1);
         finish(v, &report);
     }
+    fresh_folder(FOLDER);
+    form plain = {.bits_stored = 12};
+    for (int i = 0; i < width * height; i++) plain.pixels[i] = (uint16_t)(0xFF0 + i);
+    small("a.dcm", &plain);
+    ang_load_report report;
+    ang_volume *v = load(FOLDER, &report);
+    assert_int_equal(told_of_overlays(&report), 0);
+    finish(v, &report);
 }
 
 /* The two bytes count, whatever the VR says they are (rule 10). */

@@ -240,25 +240,31 @@ static void test_convert(void **state) {
     uint16_t out[4];
     const uint8_t overlay[] = {0xFF, 0xFF, 0x00, 0xF8, 0x34, 0xA2, 0xFF, 0x07}; /* bits above HighBit 11 */
     ang_dicom_words words = {2, 12, 11, false, false};
-    ang_dicom_convert(overlay, 4, words, out);
+    assert_true(ang_dicom_convert(overlay, 4, words, out));
     assert_int_equal(out[0], 0xFFF);
     assert_int_equal(out[1], 0x800);
     assert_int_equal(out[2], 0x234);
     assert_int_equal(out[3], 0x7FF);
     words.is_signed = true;
-    ang_dicom_convert(overlay, 4, words, out);
+    assert_true(ang_dicom_convert(overlay, 4, words, out));
     assert_int_equal(out[0], 32768 - 1);
     assert_int_equal(out[1], 32768 - 2048);
     assert_int_equal(out[2], 32768 + 0x234);
     assert_int_equal(out[3], 32768 + 2047);
+    /* The sign once, or in all bits above it, is no other bit; 0x0800 is -2048 written short. */
+    const uint8_t both[] = {0x00, 0x08, 0x00, 0xF8, 0xFF, 0x07};
+    assert_false(ang_dicom_convert(both, 3, words, out));
+    const uint8_t half[] = {0x00, 0x78};
+    assert_true(ang_dicom_convert(half, 1, words, out));
+    assert_int_equal(out[0], 32768 - 2048);
     words = (ang_dicom_words){2, 12, 15, false, false}; /* pixels in the high bits */
     const uint8_t high[] = {0xF5, 0xFF, 0x15, 0x00};
-    ang_dicom_convert(high, 2, words, out);
+    assert_true(ang_dicom_convert(high, 2, words, out)); /* the 5 below */
     assert_int_equal(out[0], 0xFFF);
     assert_int_equal(out[1], 0x001);
     words = (ang_dicom_words){2, 16, 15, true, true};
     const uint8_t big[] = {0x80, 0x00, 0x00, 0x01, 0xFF, 0xFF};
-    ang_dicom_convert(big, 3, words, out);
+    assert_false(ang_dicom_convert(big, 3, words, out));
     assert_int_equal(out[0], 0);
     assert_int_equal(out[1], 32769);
     assert_int_equal(out[2], 32767);
@@ -266,7 +272,7 @@ static void test_convert(void **state) {
     ang_dicom_convert(big, 2, words, out);
     assert_int_equal(out[0], 0x80);
     uint16_t place[] = {0x0000, 0x8000, 0xFFFF};
-    ang_dicom_convert(place, 3, (ang_dicom_words){2, 16, 15, true, false}, place);
+    assert_false(ang_dicom_convert(place, 3, (ang_dicom_words){2, 16, 15, true, false}, place));
     assert_int_equal(place[0], 32768);
     assert_int_equal(place[1], 0);
     assert_int_equal(place[2], 32767);
