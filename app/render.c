@@ -286,11 +286,13 @@ static bool estimate_error(session *run, int frame, ang_error_estimate *estimate
     return true;
 }
 
-/* What a file says of how its picture came to be. */
+/* What a file says of how its picture came to be. A preset's name may be anybody's words: PS3.15 has no room for it. */
 static void describe(const session *run, char *text, size_t size) {
     const ang_scene *scene = &run->picture.scene;
-    snprintf(text, size, "Angioscope " ANG_VERSION ": mode %s, preset %s, method %s, step %.3g mm. Not for diagnosis.",
-             ang_mode_name(scene->mode), run->picture.preset->name, run->method->name, run->summary.stats.step_mm);
+    bool names = run->options->keep_phi;
+    snprintf(text, size, "Angioscope " ANG_VERSION ": mode %s%s%s, method %s, step %.3g mm. Not for diagnosis.",
+             ang_mode_name(scene->mode), names ? ", preset " : "", names ? run->picture.preset->name : "",
+             run->method->name, run->summary.stats.step_mm);
 }
 
 static bool write_picture(session *run, int frame, const ang_error_estimate *estimate, double milliseconds,

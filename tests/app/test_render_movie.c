@@ -150,6 +150,7 @@ static void captures_are_the_pictures(void **state) {
         fclose(in);
         assert_true(size > PIXELS && size < sizeof bytes);
         assert_null(memmem(bytes, size, "Phantom", 7));
+        assert_null(memmem(bytes, size, "cta-head", 8)); /* as own presets may be called anything */
         snprintf(path, sizeof path, FOLDER "/c-%04d.ppm", i);
         assert_true(ang_picture_read(path, &image, NULL));
         for (int p = 0; p < PIXELS; p++)
@@ -158,6 +159,7 @@ static void captures_are_the_pictures(void **state) {
     }
     expect(0, SCENE "--preset cta-head --keep-phi -o " FOLDER "/kept.dcm");
     assert_int_equal(system("grep -q Phantom^Angioscope " FOLDER "/kept.dcm"), 0);
+    assert_int_equal(system("grep -q 'preset cta-head' " FOLDER "/kept.dcm"), 0);
     expect(2, SCENE "-o " DATA "/IM0001.dcm 2>&1");
 }
 
