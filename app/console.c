@@ -174,6 +174,9 @@ ang_load_options ang_app_load_options(const ang_options *options) {
                               .raw_dims = options->raw_dims,
                               .raw_type = options->raw_type,
                               .raw_spacing = options->raw_spacing,
+                              .series_remembered = options->series_remembered,
+                              .phase_remembered = options->phase_remembered,
+                              .raw_remembered = options->raw_remembered,
                               .threads = options->threads,
                               .strict = options->strict,
                               .no_sandbox = options->no_sandbox};

@@ -34,7 +34,8 @@ typedef struct ang_options {
     int frames, repeat, threads, seed, pass_steps, quads, phase, every;
     bool no_termination, no_skip, count_shown, separate_passes, show_bricks, axes, explain, manual_filter, strict,
         no_sandbox, annotate, keep_phi, replace, quiet, verbose, help, json_flag;
-    const char **arguments; /* what is not an option, NULL at the end */
+    bool series_remembered, phase_remembered, raw_remembered; /* of a state: see ang_load_options */
+    const char **arguments;                                   /* what is not an option, NULL at the end */
     int argument_count;
     bool given[ANG_MOST_OPTIONS]; /* on the command line, in the order of the table */
 } ang_options;

@@ -79,9 +79,13 @@ static bool offer_input(ang_verb verb, const char *file, ang_stated *stated, ang
         options->argument_count = 1;
     }
     snprintf(stated->series, sizeof stated->series, "%d", series);
+    bool phase = !options->series; /* the state's phase is one of the state's series */
+    options->series_remembered = !options->series;
+    options->phase_remembered = !ang_options_given(verb, options, "phase");
+    options->raw_remembered = !options->raw_dims && !options->raw_type && !options->raw_spacing;
     snprintf(stated->phase, sizeof stated->phase, "%d", ang_state_phase(state));
     return (series == 0 || ang_options_offer(verb, options, "series", stated->series, err)) &&
-           ang_options_offer(verb, options, "phase", stated->phase, err) &&
+           (!phase || ang_options_offer(verb, options, "phase", stated->phase, err)) &&
            (!state->raw_dims || ang_options_offer(verb, options, "raw-dims", state->raw_dims, err)) &&
            (!state->raw_type || ang_options_offer(verb, options, "raw-type", state->raw_type, err)) &&
            (!state->raw_spacing || ang_options_offer(verb, options, "raw-spacing", state->raw_spacing, err));

@@ -42,9 +42,12 @@ ang_load_options ang_waiting_load_options(ang_waiting *waiting, const char *path
                  strcmp(path, options->arguments[0]) == 0;
     if (!state->preset) return how;
     waiting->over = named || (state->input_path && strcmp(path, state->input_path) == 0);
+    how.series_remembered = !how.series;
+    how.phase_remembered = how.phase == 0;
+    how.raw_remembered = !how.raw_dims && !how.raw_type && !how.raw_spacing;
     snprintf(waiting->series, sizeof waiting->series, "%d", ang_state_series(state));
+    if (how.phase == 0 && !how.series) how.phase = ang_state_phase(state);
     if (ang_state_series(state) > 0 && !how.series) how.series = waiting->series;
-    if (how.phase == 0) how.phase = ang_state_phase(state);
     if (!how.raw_dims) how.raw_dims = state->raw_dims;
     if (!how.raw_type) how.raw_type = state->raw_type;
     if (!how.raw_spacing) how.raw_spacing = state->raw_spacing;

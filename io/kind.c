@@ -30,7 +30,7 @@ static bool begins_like(const char *path, const char *const *starts, size_t coun
 static ang_kind kind_of_file(const char *path, const ang_load_options *options) {
     static const char *const nrrd[] = {"NRRD000"};
     static const char *const metaimage[] = {"ObjectType", "NDims", "Comment = "};
-    if (options->raw_dims) return ANG_KIND_RAW;
+    if (options->raw_dims && !options->raw_remembered) return ANG_KIND_RAW;
     if (ang_dicom_probe(path)) return ANG_KIND_DICOM;
     if (ang_nifti_probe(path)) return ANG_KIND_NIFTI;
     if (begins_like(path, nrrd, 1)) return ANG_KIND_NRRD;

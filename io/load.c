@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 const char *ang_base_name(const char *path) {
     const char *slash = strrchr(path, '/');
@@ -46,6 +47,7 @@ const char *ang_series_phase_text(const ang_series_info *info, int phase) {
 
 bool ang_load_phase(const char *what, int phases, const ang_load_options *options, int *phase, ang_error *err) {
     *phase = options->phase > 0 ? options->phase : 1;
+    if (*phase > phases && options->phase_remembered) *phase = 1;
     if (*phase <= phases || *phase == 1) return true;
     if (phases > 1) return ang_fail(err, ANG_INPUT, "--phase %d: %s has phases 1 to %d", *phase, what, phases);
     return ang_fail(err, ANG_INPUT, "--phase %d: %s is one volume, phase 1", *phase, what);
@@ -64,13 +66,15 @@ bool ang_load_report_hounsfield(const ang_load_report *report) {
            strcmp(report->series[report->chosen].modality, "CT") == 0;
 }
 
-/* Options for raw input are refused where the input is something else: ignored, they would mislead. */
+/* Options for raw input are refused where the input is something else: ignored, they would mislead. Those that a state
+ * remembers were said of other data. */
 static bool refuse_raw_options(const char *label, const char *what, const ang_load_options *options, ang_error *err) {
     const char *name = options->raw_dims      ? "--raw-dims"
                        : options->raw_type    ? "--raw-type"
                        : options->raw_spacing ? "--raw-spacing"
                                               : NULL;
-    return !name || ang_fail(err, ANG_USAGE, "%s is for raw input, and %s is %s: leave it out", name, label, what);
+    return !name || options->raw_remembered ||
+           ang_fail(err, ANG_USAGE, "%s is for raw input, and %s is %s: leave it out", name, label, what);
 }
 
 /* What is left out of a build is no format of it. */
@@ -85,11 +89,32 @@ static bool refuse_raw_options(const char *label, const char *what, const ang_lo
 #define PICTURES ""
 #endif
 
+/* Fails where the file is voxels that a header beside it describes; true where there is none. */
+static bool point_to_header(const char *path, const char *label, ang_error *err) {
+    static const char *const pairs[][2] = {{".img", ".hdr"}, {".img.gz", ".hdr"},  {".raw", ".nhdr"},
+                                           {".raw", ".mhd"}, {".raw.gz", ".nhdr"}, {".zraw", ".mhd"}};
+    size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        size_t ending = strlen(pairs[i][0]);
+        char *header = NULL;
+        if (length <= ending || strcmp(path + length - ending, pairs[i][0]) != 0) continue;
+        if (asprintf(&header, "%.*s%s", (int)(length - ending), path, pairs[i][1]) < 0) return true;
+        bool there = access(header, F_OK) == 0;
+        if (there)
+            ang_fail(err, ANG_INPUT, "%s: holds voxels only; open the header beside it, %s", label,
+                     ang_base_name(header));
+        free(header);
+        if (there) return false;
+    }
+    return true;
+}
+
 static bool fail_unknown(const char *path, const char *label, ang_error *err) {
     struct stat status;
     if (stat(path, &status) == 0 && status.st_size == 0) return ang_fail(err, ANG_INPUT, "%s: is empty", label);
     if (ang_nifti2_probe(path))
         return ang_fail(err, ANG_INPUT, "%s: is NIfTI-2, which is not read: convert it to NIfTI-1", label);
+    if (!point_to_header(path, label, err)) return false;
     return ang_fail(err, ANG_INPUT,
                     "%s: is neither DICOM, " NIFTI "NRRD, MetaImage" PICTURES
                     " nor a zip archive; a raw volume needs --raw-dims and --raw-type or a sidecar %s.json",

@@ -20,14 +20,16 @@ typedef struct ang_load_options {
     const char *series_choice; /* what picks another series, for a sentence of the report; NULL: "--series" */
     const char *phase_choice;  /* likewise another phase; NULL: "--phase" */
     int phase;                 /* --phase: 1, 2, ... of a series of several phases; 0: the first */
-    /* Refused with ANG_USAGE where the input is not raw. */
+    /* Refused with ANG_USAGE where the input is not raw, unless raw_remembered. */
     const char *raw_dims;    /* --raw-dims "XxYxZ"; NULL: a JSON sidecar beside the file (NAME.json) must say it */
     const char *raw_type;    /* --raw-type u8 | i8 | u16 | i16 | f32, little endian */
     const char *raw_spacing; /* --raw-spacing "X,Y,Z" in mm; default 1,1,1 */
-    int threads;             /* 0: all */
-    ang_slice_sink slices;   /* is given the slices while they are read */
-    bool strict;             /* any warning is an error (ANG_GEOMETRY) */
-    bool no_sandbox;         /* codecs run in this process: see io/sandbox/sandbox.h */
+    /* Remembered by a state instead of typed: such a series, phase and form of raw input holds where it fits. */
+    bool series_remembered, phase_remembered, raw_remembered;
+    int threads;           /* 0: all */
+    ang_slice_sink slices; /* is given the slices while they are read */
+    bool strict;           /* any warning is an error (ANG_GEOMETRY) */
+    bool no_sandbox;       /* codecs run in this process: see io/sandbox/sandbox.h */
 } ang_load_options;
 
 /* One 3D image series or what else was found, as listed by `info`. */

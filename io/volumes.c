@@ -22,6 +22,7 @@ bool ang_volumes_choose(const ang_found *found, const ang_load_options *options,
         *index = (size_t)number - 1;
         return true;
     }
+    if (options->series_remembered) return true;
     if (found->count == 1)
         return ang_fail(err, ANG_INPUT, "--series %s: %s holds one volume, series 1", options->series,
                         ang_base_name(found->volume[0].path));

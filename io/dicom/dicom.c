@@ -201,7 +201,10 @@ static ang_volume *load_chosen(ang_dicom_listing *listing, size_t chosen, const 
 static bool choose(const ang_dicom_listing *listing, const ang_load_options *options, ang_load_report *report,
                    size_t *chosen, ang_error *err) {
     const ang_dicom_groups *groups = &listing->groups;
-    if (!ang_dicom_choose(listing->folder.slices, groups, options->series, chosen, err)) return false;
+    bool found = ang_dicom_choose(listing->folder.slices, groups, options->series, chosen, err);
+    if (!found && options->series_remembered)
+        found = ang_dicom_choose(listing->folder.slices, groups, NULL, chosen, err);
+    if (!found) return false;
     report->chosen = groups->group[*chosen].series - 1;
     const ang_series_info *info = &report->series[report->chosen];
     char what[32];

@@ -167,6 +167,30 @@ static void other_data_are_told(void **state) {
     assert_null(strstr(output, "warning"));
 }
 
+/* How a state's own data were read says nothing of others: nobody is told of options that nobody typed. */
+static void how_data_were_read_goes_with_them(void **state) {
+    (void)state;
+    need_pictures();
+    static const char *const inputs[] = {
+        "\"raw_dims\": \"12x10x8\", \"raw_type\": \"u8\", \"raw_spacing\": \"1,1,2\"",
+        "\"name\": \"00000000-1.3\"",
+        "\"name\": \"00000000-7\"",
+    };
+    expect(0, "render " DATA " --backend none --preset ct-bone --size 20x20" QUIET "/plain.exr");
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
+        expect(0, "presets show ct-bone");
+        FILE *file = fopen(FOLDER "/elsewhere.json", "w");
+        assert_non_null(file);
+        fprintf(file, "{\"angioscope_state\": 1, \"preset\": %s, \"render\": {\"size\": \"20x20\"}, \"input\": {%s}}",
+                output, inputs[i]);
+        fclose(file);
+        expect(0, "render " DATA " --backend none --state " FOLDER "/elsewhere.json" QUIET "/elsewhere.exr 2>&1");
+        expect(0, "check " FOLDER "/plain.exr " FOLDER "/elsewhere.exr --threshold 0");
+        expect(3, "render " DATA " --backend none --state " FOLDER "/elsewhere.json --phase 3" QUIET "/no.exr 2>&1");
+        assert_non_null(strstr(output, "--phase 3"));
+    }
+}
+
 /* Methods are compared in the picture's scene, not its own method with itself. */
 static void a_report_is_of_it(void **state) {
     (void)state;
@@ -197,11 +221,12 @@ static void a_picture_names_no_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_picture_is_drawn_again),   cmocka_unit_test(memory_for_textures_is_carried),
-        cmocka_unit_test(raw_input_is_read_again),    cmocka_unit_test(long_values_are_carried_whole),
-        cmocka_unit_test(each_frame_carries_its_own), cmocka_unit_test(options_go_first),
-        cmocka_unit_test(what_cannot_be_is_refused),  cmocka_unit_test(other_data_are_told),
-        cmocka_unit_test(a_report_is_of_it),          cmocka_unit_test(a_picture_names_no_files),
+        cmocka_unit_test(a_picture_is_drawn_again),          cmocka_unit_test(memory_for_textures_is_carried),
+        cmocka_unit_test(raw_input_is_read_again),           cmocka_unit_test(long_values_are_carried_whole),
+        cmocka_unit_test(each_frame_carries_its_own),        cmocka_unit_test(options_go_first),
+        cmocka_unit_test(what_cannot_be_is_refused),         cmocka_unit_test(other_data_are_told),
+        cmocka_unit_test(how_data_were_read_goes_with_them), cmocka_unit_test(a_report_is_of_it),
+        cmocka_unit_test(a_picture_names_no_files),
     };
     return cmocka_run_group_tests(tests, opening, NULL);
 }

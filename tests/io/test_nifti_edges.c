@@ -121,6 +121,22 @@ static void other_byte_order(void **state) {
     expect_note("big.nii", true, "a spacing is negative");
 }
 
+/* Voxels without their header name it. */
+static void voxels_point_to_their_header(void **state) {
+    (void)state;
+    static const char bytes[64] = "no header of anything";
+    static const char *const pairs[][2] = {{"pair.img", "pair.hdr"}, {"pair.raw", "pair.nhdr"}, {"p.raw.gz", "p.nhdr"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        char path[256], says[128];
+        write_parts(pairs[i][0], "", bytes, sizeof bytes);
+        snprintf(path, sizeof path, FOLDER "/%s", pairs[i][0]);
+        must_fail(path, ANG_INPUT, "is neither DICOM");
+        write_parts(pairs[i][1], "", bytes, sizeof bytes);
+        snprintf(says, sizeof says, "%s: holds voxels only; open the header beside it, %s", pairs[i][0], pairs[i][1]);
+        must_fail(path, ANG_INPUT, says);
+    }
+}
+
 static void phases(void **state) {
     (void)state;
     nifti n = start(4);
@@ -161,6 +177,7 @@ int main(void) {
         cmocka_unit_test(sheared_and_mirrored_sform),
         cmocka_unit_test(wrong_spacings),
         cmocka_unit_test(other_byte_order),
+        cmocka_unit_test(voxels_point_to_their_header),
         cmocka_unit_test(phases),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
