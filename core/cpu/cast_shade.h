@@ -30,7 +30,17 @@ INLINE lanes extinction_at(const ang_cast *cast, lanes value) {
     return mix(left, right, inside);
 }
 
+INLINE void constant_colour(const ang_cast *cast, lanes colour[3]) {
+    for (int c = 0; c < 3; c++) colour[c] = lanes_all(cast->colour[c]);
+}
+
+/* Extinction and colour. */
 INLINE void medium_at(const ang_cast *cast, lanes value, lanes *extinction, lanes colour[3]) {
+    if (cast->one_colour) {
+        *extinction = extinction_at(cast, value);
+        constant_colour(cast, colour);
+        return;
+    }
     lanes inside, left[4], right[4];
     lanes_int interval = find_interval(cast, value, &inside);
     lanes_fours(cast->entries, 2 * interval, left);
@@ -41,8 +51,10 @@ INLINE void medium_at(const ang_cast *cast, lanes value, lanes *extinction, lane
 
 INLINE void colour_at(const ang_cast *cast, lanes value, lanes colour[3]) {
     lanes extinction;
-    if (!cast->one_colour) medium_at(cast, value, &extinction, colour);
-    for (int c = 0; c < 3 && cast->one_colour; c++) colour[c] = lanes_all(cast->colour[c]);
+    if (cast->one_colour)
+        constant_colour(cast, colour);
+    else
+        medium_at(cast, value, &extinction, colour);
 }
 
 /* exp(-z) for z >= 0.49: 2^-n exp(r) with |r| <= ln 2 / 2, its series to the sixth power (error below 2e-7). */
