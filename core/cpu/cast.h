@@ -63,6 +63,7 @@ typedef struct ang_cast {
     float mean_unit;              /* 1/mm * intervals in one of their whole numbers */
     float most_bent;              /* by which share of its width a mean may be moved */
     float longest, longest_whole; /* mm: pieces within a cell, and the longest way that is not cut into such */
+    const uint8_t *flat;          /* ang_flat_blocks, or NULL */
     /* shading */
     float gradient_to_mm[3][3]; /* halved stored differences to HU per mm */
     float half_slope;           /* halved stored differences to HU */

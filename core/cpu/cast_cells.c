@@ -122,15 +122,55 @@ typedef struct pieces {
     int at[AT_ONCE][LANES]; /* of the cell's first voxel in the volume */
 } pieces;
 
+/* `cell` where it is one of the volume's, else the nearest. */
+INLINE lanes_int cell_within(const ang_cast *cast, int axis, lanes_int cell) {
+    lanes_int last = lanes_all_int(cast->last[axis] > 0 ? cast->last[axis] - 1 : 0);
+    cell = lanes_pick_int(cell > last, last, cell);
+    return cell & (cell > 0);
+}
+
+/* Where the cells ahead end: of each axis, and the first of them. */
+INLINE lanes faces_ahead(const ang_cast *cast, const walk *w, const lanes_int cell[3], lanes_int side, lanes face[3]) {
+    lanes next = lanes_all(1e30f);
+    for (int axis = 0; axis < 3; axis++) {
+        face[axis] = (lanes_float(cell[axis] + (-w->ahead[axis] & side)) - w->start[axis]) * w->inverse[axis];
+        if (cast->last[axis] > 0) next = lanes_min(next, face[axis]);
+    }
+    return next;
+}
+
+/* Lanes before a block in which colour and extinction stay the same take it as one cell: the one in which they leave
+ * it, since all its values show the same. */
+INLINE void take_blocks(const ang_cast *cast, walk *w, lanes face[3], lanes *next) {
+    lanes_int cell[3], first[3], outside = lanes_all_int(0);
+    for (int axis = 0; axis < 3; axis++) {
+        cell[axis] = cell_within(cast, axis, w->cell[axis]);
+        outside |= cell[axis] != w->cell[axis];
+    }
+    lanes_int flat = lanes_bytes(cast->flat, node_of(cast->blocks, lanes_all_int(BLOCK_SHIFT), cell)) != 0;
+    flat &= ~outside;
+    if (!lanes_bits(flat)) return;
+    lanes block_face[3];
+    for (int axis = 0; axis < 3; axis++) first[axis] = cell[axis] >> BLOCK_SHIFT << BLOCK_SHIFT;
+    lanes end = lanes_min(faces_ahead(cast, w, first, lanes_all_int(1 << BLOCK_SHIFT), block_face), w->end);
+    for (int axis = 0; axis < 3; axis++) {
+        lanes_int last = first[axis] + ((1 << BLOCK_SHIFT) - 1);
+        lanes_int leaving = lanes_truncate(lanes_max(w->start[axis] + end * w->direction[axis], lanes_all(0)));
+        leaving = lanes_pick_int(leaving < first[axis], first[axis], lanes_pick_int(leaving > last, last, leaving));
+        leaving =
+            lanes_pick_int(block_face[axis] <= end, lanes_pick_int(w->ahead[axis] != 0, last, first[axis]), leaving);
+        w->cell[axis] = lanes_pick_int(flat, leaving, w->cell[axis]);
+        face[axis] = lanes_pick(flat, block_face[axis], face[axis]);
+    }
+    *next = lanes_pick(flat, end, *next);
+}
+
 INLINE void find_pieces(const ang_cast *cast, walk *w, pieces *p) {
     for (int k = 0; k < AT_ONCE; k++) {
-        lanes face[3], next = lanes_all(1e30f);
-        for (int axis = 0; axis < 3; axis++) {
-            face[axis] = (lanes_float(w->cell[axis] + w->ahead[axis]) - w->start[axis]) * w->inverse[axis];
-            if (cast->last[axis] > 0) next = lanes_min(next, face[axis]);
-        }
+        lanes face[3], next = faces_ahead(cast, w, w->cell, lanes_all_int(1), face);
         /* What is left of a cell joins the piece before it where it is less than half of one. */
         next = lanes_pick(next - w->at > cast->longest_whole, w->at + cast->longest, next);
+        if (cast->flat) take_blocks(cast, w, face, &next);
         next = lanes_max(lanes_min(next, w->end), w->at);
         p->from[k] = w->at;
         p->to[k] = next;
@@ -138,9 +178,7 @@ INLINE void find_pieces(const ang_cast *cast, walk *w, pieces *p) {
         w->at = next;
         lanes_int at = lanes_all_int(0);
         for (int axis = 0; axis < 3; axis++) {
-            lanes_int cell = w->cell[axis], last = lanes_all_int(cast->last[axis] > 0 ? cast->last[axis] - 1 : 0);
-            cell = lanes_pick_int(cell > last, last, cell);
-            p->cell[k][axis] = cell & (cell > 0);
+            p->cell[k][axis] = cell_within(cast, axis, w->cell[axis]);
             at += p->cell[k][axis] * (axis == 0 ? 1 : axis == 1 ? cast->row : cast->slice);
             w->cell[axis] += (face[axis] <= next) & (2 * w->ahead[axis] - 1);
         }

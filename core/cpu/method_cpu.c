@@ -5,6 +5,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/cpu/classifier.h"
+#include "core/cpu/flat_blocks.h"
 #include "core/render/facts.h"
 #include "core/scene/object_layer.h"
 #include "core/scene/objects.h"
@@ -31,6 +32,8 @@ struct ang_renderer {
     ang_object_layer objects;
     bool adapts;      /* the method is `adaptive` */
     ang_means *means; /* of the tables, where it is */
+    ang_flat_blocks flat;
+    bool flat_current;
 };
 
 /* What is decided about one picture. */
@@ -42,6 +45,7 @@ typedef struct decision {
     double step;  /* mm */
     bool whole;   /* steps are classified by all values between their ends */
     bool by_cell; /* rays go from cell to cell */
+    bool flat;    /* through blocks where colour and extinction stay the same in one step */
 } decision;
 
 static bool uses(const decision *d, ang_part part) { return ang_plan_uses(&d->plan, part); }
@@ -52,6 +56,7 @@ static void destroy(ang_renderer *renderer) {
     ang_block_grid_clear(&renderer->grid);
     ang_classifier_clear(&renderer->classifier);
     ang_means_free(renderer->means);
+    ang_flat_blocks_clear(&renderer->flat);
     free(renderer->weights);
     free(renderer->wide);
     free(renderer);
@@ -114,14 +119,18 @@ static bool prepare_weights(ang_renderer *renderer, const ang_scene *scene, int 
     return true;
 }
 
+static bool start_grid(ang_renderer *renderer, int threads, ang_error *err) {
+    ang_block_grid *grid = &renderer->grid;
+    if (grid->octree || ang_block_grid_start(grid, renderer->volume, NULL, threads, err)) return true;
+    ang_block_grid_clear(grid);
+    return false;
+}
+
 /* Which blocks show, where rays may skip those that do not. Another camera changes none of them. */
 static bool update_grid(ang_renderer *renderer, const ang_render_options *options, decision *d, ang_error *err) {
     ang_block_grid *grid = &renderer->grid;
     const ang_visibility *before = &renderer->gridded, *now = &d->visibility;
-    if (!grid->octree && !ang_block_grid_start(grid, renderer->volume, NULL, options->threads, err)) {
-        ang_block_grid_clear(grid);
-        return false;
-    }
+    if (!start_grid(renderer, options->threads, err)) return false;
     bool same_threshold = before->threshold <= now->threshold && before->threshold >= now->threshold;
     bool changed, current = renderer->grid_current && before->mode == now->mode && same_threshold;
     if (!current && !ang_block_grid_update(grid, now, true, options->threads, &changed, err)) return false;
@@ -129,6 +138,21 @@ static bool update_grid(ang_renderer *renderer, const ang_render_options *option
     renderer->grid_current = true;
     d->facts.blocks = grid->blocks;
     d->facts.shown = grid->visible_blocks;
+    return true;
+}
+
+/* Shading differs from place to place whatever the transfer function does. Rays that skip nothing take these blocks in
+ * one step too, so that skipping changes no bit. */
+static bool prepare_flat(ang_renderer *renderer, const ang_scene *scene, int threads, decision *d, ang_error *err) {
+    if (!d->by_cell || ang_scene_needs_phong(scene)) return true;
+    if (!renderer->flat_current) {
+        ang_flat_blocks_clear(&renderer->flat);
+        if (!start_grid(renderer, threads, err) ||
+            !ang_flat_blocks_find(&renderer->flat, renderer->classifier.table.tables, renderer->grid.octree, err))
+            return false;
+        renderer->flat_current = true;
+    }
+    d->flat = renderer->flat.flat != NULL;
     return true;
 }
 
@@ -144,6 +168,7 @@ static bool prepare_classifier(ang_renderer *renderer, const ang_scene *scene, c
         renderer->grid_current = false;
         ang_means_free(renderer->means);
         renderer->means = NULL;
+        renderer->flat_current = false;
     }
     if (scene->mode != ANG_MODE_DVR) return true;
     if (d->by_cell) {
@@ -155,6 +180,14 @@ static bool prepare_classifier(ang_renderer *renderer, const ang_scene *scene, c
         return false;
     d->whole = classifier->classification.prefix;
     return true;
+}
+
+/* mm of a ray that are one step at most. */
+static double longest_step(const ang_volume *volume, const decision *d) {
+    if (!d->by_cell) return d->step;
+    double cell = longest_whole / 2 * d->step, block = 0;
+    for (int axis = 0; axis < 3 && d->flat; axis++) block += ANG_SKIP_BLOCK * ang_volume_spacing(volume, axis);
+    return fmax(cell, block / 2);
 }
 
 /* Decides as far as is known, builds what that takes, and decides again. `warn`: whether mid-points may miss something
@@ -173,12 +206,13 @@ static bool decide(ang_renderer *renderer, const ang_scene *scene, const ang_ren
     if (d->by_cell) voxels = fmin(voxels, ang_method_adaptive.coarsest_step);
     d->step = fmax(voxels * ang_volume_smallest_spacing(volume), 2 * ang_volume_half_diagonal(volume) / most_samples);
     if (!prepare_classifier(renderer, scene, options, warn, d, err)) return false;
+    if (!prepare_flat(renderer, scene, options->threads, d, err)) return false;
     if (!prepare_weights(renderer, scene, options->threads, err)) return false;
     if (scene->objects && !ang_object_layer_make(&renderer->objects, volume, scene, &d->frame, options->threads, err))
         return false;
     d->visibility = ang_visibility_make(volume, scene, renderer->classifier.table.tables);
     d->facts = ang_facts_make(ANG_DRAW_LANES, NULL, volume, scene, options, &d->frame, &renderer->classifier.table,
-                              (d->by_cell ? 1.01 * longest_whole / 2 : 1.01) * d->step);
+                              1.01 * longest_step(volume, d));
     d->facts.whole_steps = d->whole;
     if (d->whole) d->facts.extinction = ang_classifier_greatest(&renderer->classifier);
     d->plan = ang_plan_decide(&d->facts);
@@ -223,11 +257,12 @@ static void set_volume(ang_cast *cast, const ang_renderer *renderer) {
 }
 
 static void set_grid(ang_cast *cast, const ang_renderer *renderer, const decision *d) {
+    const ang_octree *octree = renderer->grid.octree;
     cast->skips = uses(d, ANG_PART_SKIPPING);
+    if (d->flat) cast->flat = renderer->flat.flat;
+    if (octree) memcpy(cast->blocks, octree->level[0].dims, sizeof cast->blocks);
     if (!cast->skips) return;
     cast->distance = renderer->grid.distance;
-    const ang_octree *octree = renderer->grid.octree;
-    memcpy(cast->blocks, octree->level[0].dims, sizeof cast->blocks);
     for (int i = 0; i < ANG_CAST_LEVELS; i++) {
         int level = i < octree->levels ? i : octree->levels - 1;
         cast->ranges[i].nodes = octree->level[level].nodes;
@@ -403,6 +438,9 @@ static bool explain(ang_renderer *renderer, const ang_scene *scene, const ang_re
     if (d.by_cell)
         ang_plan_use(plan, "steps from face to face of cells, at most %.3g mm, integrated over the transfer function",
                      longest_whole * d.step);
+    if (d.flat)
+        ang_plan_use(plan, "one step through each of %zu blocks where colour and extinction stay the same",
+                     renderer->flat.count);
     if (scene->mode == ANG_MODE_DVR && !d.by_cell)
         ang_classification_explain(&renderer->classifier.classification,
                                    d.whole && renderer->classifier.prefix->plateaus, plan);

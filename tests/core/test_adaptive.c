@@ -123,6 +123,49 @@ static void errors_are_of_order_two(void **state) {
     ang_volume_free(volume);
 }
 
+/* Values of a flat stretch of the transfer function, with noise, and of slopes beside it. */
+static double patchy_value(int x, int y, int z) {
+    uint64_t seed = (uint64_t)(1 + x + 100 * y + 10000 * z);
+    random_unit(&seed);
+    bool flat = x > 4 && x < 26 && y > 4;
+    return flat ? 300 + 90 * random_unit(&seed) : z % 8 < 4 ? 100 : 500 * random_unit(&seed);
+}
+
+/* Blocks in which colour and extinction stay the same are one step, exactly: fewer steps than cells, the picture that a
+ * step in each cell gives, which a slope far too slight to be seen asks for, and the same bits whatever is skipped. */
+static void flat_blocks_are_one_step(void **state) {
+    (void)state;
+    for (int which = 0; which < SCENES; which++) {
+        ang_volume *volume = sheared_volume(patchy_value);
+        ang_image image[2];
+        ang_frame_stats stats[2] = {{0}, {0}};
+        for (int slope = 0; slope < 2; slope++) {
+            const ang_transfer_point points[] = {
+                {.hu = 200, .colour = {0.2, 0.5, 1}, .opacity = 0},
+                {.hu = 290, .colour = {1, 0.5, 0.25}, .opacity = 0.03},
+                {.hu = 400, .colour = {1, 0.5, slope ? 0.250001 : 0.25}, .opacity = 0.03},
+                {.hu = 480, .colour = {0.1, 0.9, 0.25}, .opacity = 0.3},
+            };
+            ang_transfer *transfer = ang_transfer_create(points, 4, 1, false, NULL, NULL);
+            ang_scene scene = make_scene(which, volume, transfer);
+            scene.shading = ANG_SHADING_NONE;
+            image[slope] = draw_anew(&ang_method_adaptive, volume, &scene, &exact, &stats[slope]);
+            ang_render_options whole = exact;
+            whole.no_skip = true;
+            ang_image unskipped = draw_anew(&ang_method_adaptive, volume, &scene, &whole, NULL);
+            assert_true(difference(&image[slope], &unskipped) == 0);
+            ang_image_clear(&unskipped);
+            ang_transfer_free(transfer);
+        }
+        print_message("scene %d: %.0f of %.0f steps\n", which, (double)stats[0].samples, (double)stats[1].samples);
+        assert_true(difference(&image[0], &image[1]) < 3e-6);
+        assert_true(stats[0].samples < 0.9 * (double)stats[1].samples);
+        ang_image_clear(&image[0]);
+        ang_image_clear(&image[1]);
+        ang_volume_free(volume);
+    }
+}
+
 /* In all modes, shaded and not; but for dvr it is the method cpu. */
 static void widths_change_no_bit(void **state) {
     (void)state;
@@ -226,6 +269,7 @@ int main(void) {
         cmocka_unit_test(linear_fields_miss_nothing),
         cmocka_unit_test(pictures_keep_the_error_asked_for),
         cmocka_unit_test(errors_are_of_order_two),
+        cmocka_unit_test(flat_blocks_are_one_step),
         cmocka_unit_test(widths_change_no_bit),
         cmocka_unit_test(skipping_changes_nothing),
         cmocka_unit_test(nothing_is_kept_that_has_changed),
