@@ -129,6 +129,34 @@ static void keys_go_down_one_by_one(void **state) {
     assert_int_equal(input.press_count, 2);
 }
 
+/* A key is for what the pointer has come to; a key before the move for where it was, in the same frame. */
+static void keys_come_after_what_the_pointer_did(void **state) {
+    (void)state;
+    start();
+    key('A', true);
+    move(7, 0);
+    key('A', false);
+    key('B', true);
+    assert_true(ang_event_take(&queue, &input));
+    assert_true(input.press_count == 1 && input.press[0].key == 'A' && input.x == 7 && input.key['A']);
+    assert_false(ang_event_take(&queue, &input));
+    assert_true(input.press_count == 1 && input.press[0].key == 'B' && !input.key['A']);
+    /* Ctrl is let go when the wheel has turned and the button has gone up. */
+    const ang_event before[] = {{.kind = ANG_EVENT_WHEEL, .y = 1},
+                                {.kind = ANG_EVENT_MOVE, .x = 9},
+                                {.kind = ANG_EVENT_BUTTON, .code = ANG_BUTTON_LEFT, .modifiers = ANG_MOD_CONTROL}};
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++) {
+        start();
+        input.modifiers = ANG_MOD_CONTROL;
+        ang_event_push(&queue, &before[i]);
+        key(ANG_KEY_NONE, false);
+        assert_true(ang_event_take(&queue, &input));
+        assert_int_equal(input.modifiers, ANG_MOD_CONTROL);
+        assert_false(ang_event_take(&queue, &input));
+        assert_int_equal(input.modifiers, 0);
+    }
+}
+
 static void wheel_turns_add_up_and_end_moves(void **state) {
     (void)state;
     start();
@@ -205,6 +233,7 @@ int main(void) {
         cmocka_unit_test(a_fast_drag_keeps_its_ends),
         cmocka_unit_test(taps_of_a_key_are_not_swallowed),
         cmocka_unit_test(keys_go_down_one_by_one),
+        cmocka_unit_test(keys_come_after_what_the_pointer_did),
         cmocka_unit_test(wheel_turns_add_up_and_end_moves),
         cmocka_unit_test(double_clicks_go_by_the_hand_not_by_frames),
         cmocka_unit_test(releases_survive_a_full_queue),

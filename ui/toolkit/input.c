@@ -47,8 +47,8 @@ static bool fits(const ang_event_queue *queue, const ang_event *event, const tak
     case ANG_EVENT_WHEEL:
         return !so_far->button;
     case ANG_EVENT_KEY:
-        return !(queue->keys_held_back && event->down) && !so_far->edge[event->code] &&
-               !(event->down && event->code != ANG_KEY_NONE && so_far->pressed) &&
+        return !so_far->moved && !so_far->button && !so_far->wheel && !(queue->keys_held_back && event->down) &&
+               !so_far->edge[event->code] && !(event->down && event->code != ANG_KEY_NONE && so_far->pressed) &&
                input->press_count < ANG_INPUT_PRESSES;
     case ANG_EVENT_CHARACTER:
         return input->character_count < ANG_INPUT_CHARACTERS;

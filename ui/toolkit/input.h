@@ -103,8 +103,9 @@ typedef struct ang_event_queue {
 void ang_event_push(ang_event_queue *queue, const ang_event *event);
 /* Takes what one frame may see into `input`, whose other fields stay: moves up to the first button or wheel event; at
  * most one button event, and none that goes up in the frame of a move; at most one edge of each key, and one key going
- * down besides modifiers, since what has the keyboard may change with it. True where events
- * remain, which need another frame. */
+ * down besides modifiers, since what has the keyboard may change with it; and no key or modifier after a move, a button
+ * or the wheel, since it is for what lies under the pointer then. True where events remain, which need another frame.
+ */
 bool ang_event_take(ang_event_queue *queue, ang_input *input);
 
 /* Whether anything waits but letters that repeat because they are held down, with the characters that they give: these
