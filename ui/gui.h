@@ -29,6 +29,8 @@ void ang_gui_end(ang_gui *gui);
 
 /* `length` at scale 1 in pixels, whole. */
 double ang_gui_px(const ang_gui *gui, double length);
+/* The thinnest line in whole pixels, 1 at scale 1 and never less: frames, rules, the crosshair. */
+double ang_gui_hairline(const ang_gui *gui);
 /* Whether a text field has the keyboard, so that letters are no shortcuts. */
 bool ang_gui_typing(const ang_gui *gui);
 /* Whether a button of the mouse holds a widget: a value is still being changed. */
@@ -172,6 +174,7 @@ void ang_gui_guide(ang_gui *gui, double x0, double y0, double x1, double y1, ang
 /* In a pane, once: what is drawn between these two lies over all that is drawn later in the pane. */
 void ang_gui_on_top_begin(ang_gui *gui);
 void ang_gui_on_top_end(ang_gui *gui);
+/* A hairline within the rectangle's sides. */
 void ang_gui_frame(ang_gui *gui, ang_rect rect, ang_ink ink);
 void ang_gui_fill(ang_gui *gui, ang_rect rect, ang_ink ink);
 /* Between two colours, from left to right. */

@@ -56,8 +56,15 @@ static void a_line_without_boxes_stays_whole(void **state) {
     assert_int_equal(ang_line_outside(line, &all, 1, pieces), 0);
 }
 
+static void an_inset_keeps_the_middle(void **state) {
+    (void)state;
+    ang_rect rect = ang_rect_inset((ang_rect){10, 20, 30, 40}, 2);
+    assert_true(rect.x == 12 && rect.y == 22 && rect.x + rect.width == 38 && rect.y + rect.height == 58);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_inset_keeps_the_middle),
         cmocka_unit_test(a_line_goes_around_boxes),
         cmocka_unit_test(a_line_without_boxes_stays_whole),
     };

@@ -66,26 +66,30 @@ static const struct {
 enum { grid_lines = sizeof grid / sizeof *grid };
 
 static double grid_y(const ang_plot *plot, int line) {
-    return round(ang_plot_y(plot, ang_height_of_opacity(grid[line].opacity))) + 0.5;
+    double thick = ang_gui_hairline(plot->viewer->gui); /* on whole pixels */
+    return round(ang_plot_y(plot, ang_height_of_opacity(grid[line].opacity))) + thick / 2;
 }
 
 static void draw_grid(const ang_plot *plot) {
     for (int i = 0; i < grid_lines; i++)
         ang_gui_line(plot->viewer->gui, plot->curve.x, grid_y(plot, i), plot->curve.x + plot->curve.width,
-                     grid_y(plot, i), plot->viewer->theme->grid, 1);
+                     grid_y(plot, i), plot->viewer->theme->grid, ang_gui_hairline(plot->viewer->gui));
 }
 
-/* On a ground of their own, to be read over the curve's colours. */
-static void write_grid(const ang_plot *plot) {
-    const ang_theme *theme = plot->viewer->theme;
+/* At the left or the right side, on a ground of its own, to be read over the curve's colours. */
+static void write_beside(const ang_plot *plot, double y, bool right, ang_ink ink, const char *text) {
     ang_gui *gui = plot->viewer->gui;
-    double right = plot->curve.x + plot->curve.width - ang_gui_px(gui, 3), room = ang_gui_px(gui, 2);
-    for (int i = 0; i < grid_lines; i++) {
-        double y = grid_y(plot, i) + 1, wide = ang_gui_text_width(gui, grid[i].label, true);
-        ang_rect ground = {right - wide - room, y, wide + 2 * room, ang_gui_text_height(gui, true)};
-        ang_gui_fill(gui, ground, ANG_INK_FADED(theme->plot, 200));
-        ang_gui_write(gui, right, y, 1, true, false, theme->dim, grid[i].label);
-    }
+    double room = ang_gui_px(gui, 3), wide = ang_gui_text_width(gui, text, true) + 2 * room;
+    double x = right ? plot->curve.x + plot->curve.width - wide : plot->curve.x;
+    ang_gui_fill(gui, (ang_rect){x, y, wide, ang_gui_text_height(gui, true)},
+                 ANG_INK_FADED(plot->viewer->theme->plot, 200));
+    ang_gui_write(gui, x + room, y, 0, true, false, ink, text);
+}
+
+static void write_grid(const ang_plot *plot) {
+    for (int i = 0; i < grid_lines; i++)
+        write_beside(plot, grid_y(plot, i) + ang_gui_hairline(plot->viewer->gui), true, plot->viewer->theme->dim,
+                     grid[i].label);
 }
 
 /* What the slices show of it: a band behind the curve, with its ends. */
@@ -96,10 +100,10 @@ static void draw_mark(const ang_plot *plot) {
     double left = fmax(ang_plot_x(plot, viewer->editing.mark.low - half), plot->curve.x);
     double right = fmin(ang_plot_x(plot, viewer->editing.mark.high + half), plot->curve.x + plot->curve.width);
     if (right < left) return;
-    double top = plot->whole.y, tall = bottom_of(plot->strip) - top;
-    ang_gui_fill(viewer->gui, (ang_rect){left, top, fmax(right - left, 1), tall}, ANG_INK_FADED(ANG_INK_MARK, 60));
-    ang_gui_fill(viewer->gui, (ang_rect){left, top, 1, tall}, ANG_INK_MARK);
-    ang_gui_fill(viewer->gui, (ang_rect){fmax(right - 1, left), top, 1, tall}, ANG_INK_MARK);
+    double top = plot->whole.y, tall = bottom_of(plot->strip) - top, thick = ang_gui_hairline(viewer->gui);
+    ang_gui_fill(viewer->gui, (ang_rect){left, top, fmax(right - left, thick), tall}, ANG_INK_FADED(ANG_INK_MARK, 60));
+    ang_gui_fill(viewer->gui, (ang_rect){left, top, thick, tall}, ANG_INK_MARK);
+    ang_gui_fill(viewer->gui, (ang_rect){fmax(right - thick, left), top, thick, tall}, ANG_INK_MARK);
 }
 
 /* The preset as it was chosen, for comparison. */
@@ -107,7 +111,7 @@ static void draw_chosen(const ang_plot *plot) {
     ang_gui *gui = plot->viewer->gui;
     ang_transfer *transfer = ang_document_transfer(&plot->viewer->chosen, NULL);
     if (!transfer) return;
-    double before = 0, thick = plot->viewer->comparing ? 2 : 1;
+    double before = 0, thick = (plot->viewer->comparing ? 2 : 1) * ang_gui_hairline(gui);
     ang_ink ink = plot->viewer->theme->before;
     for (int i = 0; i <= (int)plot->curve.width; i++) {
         double x = plot->curve.x + i, opacity = ang_transfer_opacity(transfer, ang_plot_hu(plot, x));
@@ -144,14 +148,16 @@ static void draw_strip(const ang_plot *plot, const ang_transfer *transfer) {
 static void draw_points(const ang_plot *plot, int pointed) {
     const ang_viewer *viewer = plot->viewer;
     ang_gui *gui = viewer->gui;
+    double thin = ang_gui_hairline(gui);
     for (int i = 0; i < viewer->document.count; i++) {
         const ang_transfer_point *point = &viewer->document.points[i];
         bool chosen = viewer->editing.chosen.has[i];
         double x = ang_plot_x(plot, point->hu), y = point_y(plot, i);
         double radius = ang_gui_px(gui, chosen || i == pointed ? 6 : 4.5);
-        ang_gui_disc(gui, x, y, radius + 1.5, viewer->theme->plot);
+        ang_gui_disc(gui, x, y, radius + 1.5 * thin, viewer->theme->plot);
         ang_gui_disc(gui, x, y, radius, ink_of(point->colour, 255));
-        ang_gui_ring(gui, x, y, radius, chosen ? viewer->theme->accent : viewer->theme->ring, chosen ? 2.5 : 1.2);
+        ang_gui_ring(gui, x, y, radius, chosen ? viewer->theme->accent : viewer->theme->ring,
+                     (chosen ? 2.5 : 1.2) * thin);
         /* Besides its colour a chosen point has a size, and the one whose numbers are shown a dot. */
         if (i == viewer->point) ang_gui_disc(gui, x, y, ang_gui_px(gui, 2), viewer->theme->plot);
     }
@@ -160,19 +166,18 @@ static void draw_points(const ang_plot *plot, int pointed) {
 /* Points that lie beyond the plot's sides, so that none is lost: how many. */
 static void draw_beyond(const ang_plot *plot) {
     const ang_viewer *viewer = plot->viewer;
-    ang_gui *gui = viewer->gui;
     int count[2] = {0, 0};
     for (int i = 0; i < viewer->document.count; i++) {
         count[0] += viewer->document.points[i].hu < viewer->editor_low;
         count[1] += viewer->document.points[i].hu > viewer->editor_high;
     }
-    double edge = ang_gui_px(gui, 4), y = bottom_of(plot->curve) - ang_gui_px(gui, 20);
     char text[24];
     snprintf(text, sizeof text, "\xe2\x86\x90 %d", count[0]);
-    if (count[0] > 0) ang_gui_write(gui, plot->curve.x + edge, y, 0, true, false, viewer->theme->text, text);
+    /* Below the lowest of the grid's numbers. */
+    double y = bottom_of(plot->curve) - ang_gui_text_height(viewer->gui, true) - ang_gui_px(viewer->gui, 3);
+    if (count[0] > 0) write_beside(plot, y, false, viewer->theme->text, text);
     snprintf(text, sizeof text, "%d \xe2\x86\x92", count[1]);
-    double right = plot->curve.x + plot->curve.width - ang_gui_px(gui, 44); /* the grid's numbers stay free */
-    if (count[1] > 0) ang_gui_write(gui, right, y, 1, true, false, viewer->theme->text, text);
+    if (count[1] > 0) write_beside(plot, y, true, viewer->theme->text, text);
 }
 
 static void draw_box(const ang_plot *plot) {
@@ -201,7 +206,8 @@ static void draw_axis(const ang_plot *plot) {
         if (fabs(hu) < ticks.step / 2) hu = 0; /* no "-0" */
         snprintf(text, sizeof text, "%.*f", ticks.decimals, hu);
         double half = ang_gui_text_width(gui, text, true) / 2;
-        ang_gui_fill(gui, (ang_rect){floor(x), plot->axis.y, 1, ang_gui_px(gui, 3)}, viewer->theme->dim);
+        ang_gui_fill(gui, (ang_rect){floor(x), plot->axis.y, ang_gui_hairline(gui), ang_gui_px(gui, 3)},
+                     viewer->theme->dim);
         /* One that would be cut off moves inwards, as long as it stays at its tick. */
         double at = fmin(fmax(x, plot->axis.x + half), room - half);
         if (fabs(at - x) <= half) ang_gui_write(gui, at, y, 0.5, true, false, viewer->theme->dim, text);
@@ -215,16 +221,12 @@ int ang_plot_hu_decimals(const ang_viewer *viewer, double hu) {
 
 static void write_pointed(const ang_plot *plot, int pointed) {
     const ang_viewer *viewer = plot->viewer;
-    ang_gui *gui = viewer->gui;
     if (pointed < 0) return;
     char text[80];
     double hu = viewer->document.points[pointed].hu, percent = 100 * ang_document_opacity(&viewer->document, pointed);
     snprintf(text, sizeof text, "%.*f%s, opacity %.*f %%", ang_plot_hu_decimals(viewer, hu), hu,
              viewer->study.hounsfield ? " HU" : "", ang_percent_decimals(percent), percent);
-    double x = plot->whole.x + ang_gui_px(gui, 6), y = plot->whole.y + ang_gui_px(gui, 3), room = ang_gui_px(gui, 3);
-    ang_rect ground = {x - room, y, ang_gui_text_width(gui, text, true) + 2 * room, ang_gui_text_height(gui, true)};
-    ang_gui_fill(gui, ground, ANG_INK_FADED(viewer->theme->plot, 200));
-    ang_gui_write(gui, x, y, 0, true, false, viewer->theme->text, text);
+    write_beside(plot, plot->whole.y + ang_gui_px(viewer->gui, 3), false, viewer->theme->text, text);
 }
 
 void ang_plot_draw(const ang_plot *plot, int pointed) {

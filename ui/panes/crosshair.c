@@ -38,12 +38,10 @@ static void clip(cut *cut, const double size[2], double free) {
     }
 }
 
-static double thickness(const ang_viewer *viewer) { return fmax(ang_gui_px(viewer->gui, 1), 1); }
-
 /* Upright and level lines stand on whole pixels. */
 static double crisp(const ang_viewer *viewer, double at, double slope) {
     if (!(fabs(slope) < 1e-9)) return at;
-    return (int)thickness(viewer) % 2 ? floor(at) + 0.5 : round(at);
+    return (int)ang_gui_hairline(viewer->gui) % 2 ? floor(at) + 0.5 : round(at);
 }
 
 static cut cut_of(const ang_viewer *viewer, ang_pane plane, const ang_slice_frame *frame, double beside_mm) {
@@ -108,7 +106,7 @@ static void stretch(ang_viewer *viewer, ang_rect rect, const cut *cut, double fr
     if (!(from < to)) return;
     double x = rect.x + cut->x, y = rect.y + cut->y;
     ang_gui_guide(viewer->gui, x + from * cut->direction[0], y + from * cut->direction[1], x + to * cut->direction[0],
-                  y + to * cut->direction[1], ink, thickness(viewer));
+                  y + to * cut->direction[1], ink, ang_gui_hairline(viewer->gui));
 }
 
 /* Free of what lies under the crosshair. */

@@ -89,12 +89,11 @@ void ang_pane_corner(ang_viewer *viewer, ang_rect rect, int right, int bottom, i
 void ang_pane_frame(ang_viewer *viewer, ang_rect rect, ang_pane pane) {
     static const char *const letters[ANG_PANES] = {"A", "C", "S", "3D"};
     ang_gui *gui = viewer->gui;
-    /* Keys apply to the one with the bright frame; a second line says that it was chosen by one. */
+    /* Keys apply to the one with the bright frame of two lines; two more say that it was chosen by one. */
     bool active = viewer->focus.pane == (int)pane;
-    ang_gui_frame(gui, rect, ang_pane_ink(pane, active ? 255 : 110));
-    for (int i = 1; i <= 2 && active && viewer->focus.by_key && !ang_gui_navigating(gui); i++)
-        ang_gui_frame(gui, (ang_rect){rect.x + i, rect.y + i, rect.width - 2 * i, rect.height - 2 * i},
-                      ang_pane_ink(pane, 255));
+    int lines = !active ? 1 : viewer->focus.by_key && !ang_gui_navigating(gui) ? 4 : 2;
+    for (int i = 0; i < lines; i++)
+        ang_gui_frame(gui, ang_rect_inset(rect, i * ang_gui_hairline(gui)), ang_pane_ink(pane, active ? 255 : 110));
     double edge = ang_gui_px(gui, margin);
     ang_gui_write(gui, rect.x + edge, rect.y + edge - ang_gui_px(gui, 1), 0, false, true, ang_pane_ink(pane, 255),
                   letters[pane]);

@@ -204,6 +204,7 @@ void ang_gui_end(ang_gui *gui) {
 }
 
 double ang_gui_px(const ang_gui *gui, double length) { return std::round(length * gui->scale); }
+double ang_gui_hairline(const ang_gui *gui) { return std::fmax(ang_gui_px(gui, 1), 1.0); }
 bool ang_gui_typing(const ang_gui *) { return ImGui::GetIO().WantTextInput; }
 bool ang_gui_holding(const ang_gui *gui) {
     /* Escape takes the canvas that is held from ImGui, not from the hand. */

@@ -112,8 +112,11 @@ void ang_gui_guide(ang_gui *gui, double x0, double y0, double x1, double y1, ang
     for (int i = 0; i < count; i++)
         ang_gui_line(gui, pieces[i][0], pieces[i][1], pieces[i][2], pieces[i][3], ink, thickness);
 }
-void ang_gui_frame(ang_gui *, ang_rect r, ang_ink ink) {
-    sheet()->AddRect(at(r.x, r.y), at(r.x + r.width, r.y + r.height), ink);
+void ang_gui_frame(ang_gui *gui, ang_rect r, ang_ink ink) {
+    /* It puts a line of one pixel within the sides itself. */
+    double thick = ang_gui_hairline(gui), more = (thick - 1) / 2;
+    sheet()->AddRect(at(r.x + more, r.y + more), at(r.x + r.width - more, r.y + r.height - more), ink, 0, 0,
+                     (float)thick);
 }
 void ang_gui_fill(ang_gui *, ang_rect r, ang_ink ink) {
     sheet()->AddRectFilled(at(r.x, r.y), at(r.x + r.width, r.y + r.height), ink);
@@ -139,7 +142,7 @@ static void darken(const ang_gui *gui, ImFont *font, double x, double y, const a
     if (gui->on_top)
         sheet()->AddRectFilled(at(ground.x, ground.y), at(ground.x + ground.width, ground.y + ground.height),
                                ANG_INK(0, 0, 0, 145), (float)ang_gui_px(gui, 3));
-    double reach = std::fmax(ang_gui_px(gui, 1), 1.0);
+    double reach = ang_gui_hairline(gui);
     for (int across = -1; across <= 1; across++)
         for (int down = -1; down <= 1; down++)
             if (across != 0 || down != 0)

@@ -2,6 +2,10 @@
 
 #include <math.h>
 
+ang_rect ang_rect_inset(ang_rect rect, double by) {
+    return (ang_rect){rect.x + by, rect.y + by, rect.width - 2 * by, rect.height - 2 * by};
+}
+
 ang_rect ang_rect_within(ang_rect outer, double width, double height) {
     double scale = fmin(outer.width / width, outer.height / height);
     double across = round(width * scale), down = round(height * scale);

@@ -8,6 +8,8 @@
 typedef struct ang_rect {
     double x, y, width, height;
 } ang_rect;
+/* Smaller by `by` on every side. */
+ang_rect ang_rect_inset(ang_rect rect, double by);
 /* The largest rectangle of these proportions in the middle of another, on whole pixels from its corner. */
 ang_rect ang_rect_within(ang_rect outer, double width, double height);
 
