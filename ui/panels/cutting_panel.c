@@ -44,10 +44,12 @@ static void crop(ang_viewer *viewer) {
     ang_gui *gui = viewer->gui;
     ang_crop_box box = ang_crop_box_of(&viewer->document);
     ang_gui_label(gui, "Crop box");
+    double half = half_room(gui);
     ang_gui_checkbox(gui, "Crop##crop", &viewer->document.crop);
     ang_gui_tooltip(gui, "Off keeps the box. The tool \"crop\" (key X) shows its handles.");
     ang_gui_same_line(gui);
-    if (ang_gui_button(gui, "Reset##crop", ang_gui_room(gui), !ang_crop_box_whole(&box, viewer->study.volume)))
+    ang_gui_skip(gui, ang_gui_room(gui) - half); /* above the second field of the lines below */
+    if (ang_gui_button(gui, "Reset##crop", half, !ang_crop_box_whole(&box, viewer->study.volume)))
         ang_crop_reset(viewer, 0);
     ang_gui_tooltip(gui, "The whole volume");
     if (viewer->document.crop || viewer->tool == ANG_TOOL_CROP) crop_fields(viewer);
@@ -84,12 +86,14 @@ void ang_cutting_panel(ang_viewer *viewer) {
     crop(viewer);
     bool clips = ang_clip_plane_given(&viewer->document.clip);
     ang_gui_label(gui, "Clip plane");
+    double half = half_room(gui);
     if (ang_gui_checkbox(gui, "Clip##clip", &clips)) ang_clip_toggle(viewer, 0);
     ang_gui_tooltip(gui,
                     "A plane through the crosshair that cuts away what is before it. The tool \"crop\" (key X) shows "
                     "its handles.");
     ang_gui_same_line(gui);
-    if (ang_gui_button(gui, "Facing me##clip", ang_gui_room(gui), true)) ang_clip_face_viewer(viewer, 0);
+    ang_gui_skip(gui, ang_gui_room(gui) - half);
+    if (ang_gui_button(gui, "Facing me##clip", half, true)) ang_clip_face_viewer(viewer, 0);
     ang_gui_tooltip(gui, "Through the crosshair, across the line of sight. Key K.");
     if (ang_clip_plane_given(&viewer->document.clip)) plane_fields(viewer);
 }

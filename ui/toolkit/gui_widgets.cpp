@@ -11,12 +11,19 @@ void ang_gui_place(ang_rect rect) {
 
 void ang_gui_area_begin(ang_gui *, const char *name, ang_rect rect, bool solid) {
     ang_gui_place(rect);
+    /* The scroll bar comes and goes in the margin: nothing else moves. */
+    ImGui::SetNextWindowContentSize(ImVec2((float)rect.width - 2 * ImGui::GetStyle().WindowPadding.x, 0));
     ImGuiWindowFlags flags =
         (ang_gui_fixed & ~ImGuiWindowFlags_NoScrollbar) | (solid ? 0 : ImGuiWindowFlags_NoBackground);
     ImGui::Begin(name, nullptr, flags);
+    const ImRect &inner = ImGui::GetCurrentWindow()->InnerRect; /* up to the bar: it clips half a margin before */
+    ImGui::PushClipRect(inner.Min, inner.Max, false);
 }
 
-void ang_gui_area_end(ang_gui *) { ImGui::End(); }
+void ang_gui_area_end(ang_gui *) {
+    ImGui::PopClipRect();
+    ImGui::End();
+}
 
 void ang_gui_message_begin(ang_gui *gui, const char *name) {
     ImGui::SetNextWindowPos(ImVec2((float)gui->input.width / 2, (float)gui->input.height / 2), ImGuiCond_Always,
@@ -102,7 +109,7 @@ void ang_gui_heading(ang_gui *gui, const char *text) {
     ImGui::PopFont();
     ImVec2 at = ImGui::GetCursorScreenPos();
     ImVec2 end(ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x, at.y);
-    ImGui::GetWindowDrawList()->AddLine(at, end, ImGui::GetColorU32(ImGuiCol_Separator));
+    ImGui::GetWindowDrawList()->AddLine(at, end, ImGui::GetColorU32(ImGuiCol_Separator), (float)ang_gui_hairline(gui));
     ImGui::Dummy(ImVec2(0, (float)ang_gui_px(gui, 2)));
 }
 void ang_gui_label(ang_gui *gui, const char *text) {
@@ -126,7 +133,7 @@ bool ang_gui_button(ang_gui *gui, const char *label, double width, bool enabled)
 }
 bool ang_gui_pressed(const ang_gui *) { return ImGui::IsItemActive(); }
 bool ang_gui_checkbox(ang_gui *gui, const char *label, bool *value) {
-    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, std::fmax((float)ang_gui_px(gui, 1), 1.0f));
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, (float)ang_gui_hairline(gui));
     ImGui::PushStyleColor(ImGuiCol_Border, gui->theme->box);
     bool changed = ImGui::Checkbox(label, value);
     ImGui::PopStyleColor();
@@ -135,7 +142,7 @@ bool ang_gui_checkbox(ang_gui *gui, const char *label, bool *value) {
     return changed;
 }
 bool ang_gui_selectable(ang_gui *gui, const char *label, bool selected) {
-    bool chosen = ImGui::Selectable(label, selected);
+    bool chosen = ImGui::Selectable(label, selected, 0, ImVec2(ImGui::GetContentRegionAvail().x, 0));
     ang_gui_note_stop(gui);
     return chosen;
 }
