@@ -78,16 +78,19 @@ static const char *last_opened(const ang_viewer *viewer) {
 
 /* Where the last opened lies, else where the program was started. */
 static void go_to_start(ang_viewer *viewer) {
-    const char *start = viewer->host->folder, *path = last_opened(viewer);
+    const ang_viewer_host *host = viewer->host;
+    const char *path = last_opened(viewer);
     char folder[ANG_PATH_SIZE];
-    bool whole = path[0] == '/';
-    int used = snprintf(folder, sizeof folder, "%s%s%s", whole ? "" : start, whole ? "" : "/", path);
-    bool fits = used > 0 && (size_t)used < sizeof folder;
-    if (path[0] && fits) {
+    bool found = path[0] && host->full_path && host->full_path(host->context, path, folder, sizeof folder);
+    if (!found && path[0] == '/') { /* it is gone: what it lay in */
+        int used = snprintf(folder, sizeof folder, "%s", path);
+        found = used > 0 && (size_t)used < sizeof folder;
+    }
+    if (found) {
         ang_path_up(folder);
         go_to(viewer, folder);
     }
-    if (!path[0] || !fits || viewer->files.failure[0]) go_to(viewer, start);
+    if (!found || viewer->files.failure[0]) go_to(viewer, host->folder);
 }
 
 void ang_file_browser_open(ang_viewer *viewer) {

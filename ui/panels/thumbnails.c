@@ -80,7 +80,7 @@ static void draw(ang_viewer *viewer, const ang_preset *preset, int index, ang_re
     bool chosen = strcmp(preset->name, viewer->document.preset) == 0;
     ang_ink border = chosen ? viewer->theme->accent : pointed ? viewer->theme->text : viewer->theme->edge;
     ang_gui_frame(gui, picture, border);
-    ang_rect inner = {picture.x + 1, picture.y + 1, picture.width - 2, picture.height - 2};
+    ang_rect inner = ang_rect_inset(picture, ang_gui_hairline(gui));
     if (chosen) ang_gui_frame(gui, inner, pointed ? viewer->theme->text : border);
     fit(gui, preset->name, picture.width, text, sizeof text);
     ang_gui_write(gui, picture.x + picture.width / 2, picture.y + picture.height + ang_gui_px(gui, 2), 0.5, true, false,
@@ -98,17 +98,22 @@ void ang_thumbnails_show(ang_viewer *viewer) {
     const ang_preset *presets[ANG_PRESETS];
     int count = ang_presets(viewer, presets), taken = -1;
     double width = ang_gui_px(gui, WIDTH), height = ang_gui_px(gui, HEIGHT);
+    const char *about = "";
     ang_gui_message_begin(gui, "presets");
     for (int i = 0; i < count; i++) {
         ang_canvas canvas;
         if (i % COLUMNS != 0) ang_gui_same_line(gui);
         ang_gui_canvas(gui, presets[i]->name, width, height + ang_gui_px(gui, LINE), &canvas);
-        draw(viewer, presets[i], i, (ang_rect){canvas.rect.x, canvas.rect.y, width, height},
-             canvas.hovered || canvas.focused);
-        tell(gui, presets[i]);
+        bool pointed = canvas.hovered || canvas.focused;
+        draw(viewer, presets[i], i, (ang_rect){canvas.rect.x, canvas.rect.y, width, height}, pointed);
+        if (pointed) about = presets[i]->description;
         if (canvas.activated || (canvas.clicked && canvas.released == ANG_BUTTON_LEFT)) taken = i;
     }
     ang_gui_gap(gui, ang_gui_px(gui, 2));
+    /* Below the pictures: it would hide the next ones. */
+    ang_gui_scroll_begin(gui, "about", COLUMNS * (width + ang_gui_px(gui, 8)), 3 * ang_gui_text_height(gui, false));
+    ang_gui_paragraph(gui, about, 0);
+    ang_gui_scroll_end(gui);
     ang_gui_text_dim(gui, "A click, or arrows and Enter, take one; Esc or B closes this.");
     ang_gui_message_end(gui);
     if (taken < 0) return;

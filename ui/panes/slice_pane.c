@@ -137,7 +137,7 @@ static void write_corners(ang_viewer *viewer, ang_pane pane, ang_rect rect) {
     ang_playing_write(viewer, pane, rect, document->slab_mm > 0 ? 3 : 2);
     snprintf(text, sizeof text, "C %.0f  W %.0f%s", document->window_centre, document->window_width, unit);
     ang_pane_corner(viewer, rect, 1, 1, 0, text);
-    snprintf(text, sizeof text, "%szoom %.0f %%", viewer->voxels_shown ? "voxels  " : "",
+    snprintf(text, sizeof text, "%szoom %.0f %%", viewer->voxels_shown ? "voxels, " : "",
              ang_slice_zoom_percent(viewer, pane));
     ang_pane_corner(viewer, rect, 1, 1, 1, text);
 }
