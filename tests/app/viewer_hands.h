@@ -148,6 +148,29 @@ static inline void expect_number(const char *path, double expected, double toler
              refined ? "" : "; it is not refined");
 }
 
+/* Waits until a number of the state differs by more than `by` from what it was; what it is then. */
+static inline double expect_other(const char *path, double than, double by) {
+    for (int i = 0; i < PATIENCE; i++) {
+        double value = number_now(path);
+        if (fabs(value - than) > by) return value;
+        nap(50);
+    }
+    fail_msg("%s stays %.17g within %g", path, than, by);
+    return NAN;
+}
+
+/* Waits until the window draws no more: no frame in 700 ms. */
+static inline void expect_no_frames(void) {
+    double frames = NAN;
+    for (int i = 0; i < PATIENCE / 10; i++) {
+        double before = frames;
+        frames = number_now("frames");
+        if (fabs(frames - before) < 0.5) return;
+        nap(700);
+    }
+    fail_msg("the window goes on drawing");
+}
+
 /* The same for a text, refined or not. */
 static inline void expect_text(const char *path, const char *expected) {
     char value[256] = "";
