@@ -13,15 +13,14 @@ static void list_windows(ang_viewer *viewer) {
     const ang_window_preset *windows = ang_window_presets(&window_count);
     if (!ang_gui_menu_begin(viewer->gui, "Window level")) return;
     for (int i = 0; i < window_count; i++) {
-        char text[80], key[2] = {(char)('1' + i), '\0'};
-        if (i == 0)
-            snprintf(text, sizeof text, "%s", windows[i].name);
-        else
-            snprintf(text, sizeof text, "%s   C %.0f  W %.0f", windows[i].name, windows[i].centre, windows[i].width);
+        char key[64]; /* and beside it, in a column, what it sets */
+        snprintf(key, sizeof key, "%d", i + 1);
+        if (i > 0) snprintf(key, sizeof key, "%d    C %.0f  W %.0f", i + 1, windows[i].centre, windows[i].width);
         const ang_document *document = &viewer->document;
         bool shown = fabs(document->window_centre - windows[i].centre) < 0.5 &&
                      fabs(document->window_width - windows[i].width) < 0.5;
-        if (ang_gui_menu_item(viewer->gui, text, key, shown, viewer->ready)) ang_window_preset_choose(viewer, i);
+        if (ang_gui_menu_item(viewer->gui, windows[i].name, key, shown, viewer->ready))
+            ang_window_preset_choose(viewer, i);
     }
     ang_gui_menu_end(viewer->gui);
 }

@@ -256,7 +256,7 @@ static void numbers(ang_viewer *viewer) {
     ang_editing *editing = &viewer->editing;
     int count = ang_point_set_count(&editing->chosen, document), i = viewer->point;
     if (count == 0) {
-        ang_gui_hint(gui, "Click a point; double-click adds one; by keys: E");
+        ang_gui_hint(gui, "Double-click adds a point; by keys: E");
         return;
     }
     bool several = count > 1, hounsfield = viewer->study.hounsfield;

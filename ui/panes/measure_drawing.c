@@ -142,9 +142,9 @@ static void write_lines(const sheet *s, ang_mark_box box, char text[][64], int l
     double tall = (box.bottom - box.top) / lines;
     ang_rect ground = {s->rect.x + box.left - 3 * s->scale, s->rect.y + box.top - s->scale,
                        box.right - box.left + 6 * s->scale, box.bottom - box.top + 2 * s->scale};
-    ang_gui_fill(s->gui, ground, ANG_INK(0, 0, 0, 120));
+    ang_gui_fill(s->gui, ground, ANG_INK(0, 0, 0, 200));
     for (int i = 0; i < lines; i++)
-        ang_gui_write(s->gui, s->rect.x + box.left, s->rect.y + box.top + i * tall, 0, true, true, s->ink, text[i]);
+        ang_gui_write(s->gui, s->rect.x + box.left, s->rect.y + box.top + i * tall, 0, true, false, s->ink, text[i]);
 }
 
 static void measure_lines(const sheet *s, char text[][64], int lines, double size[2]) {

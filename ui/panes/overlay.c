@@ -146,7 +146,7 @@ static void status_cells(status *status) {
     ang_pane pane = (ang_pane)viewer->focus.pane;
     snprintf(text, sizeof text, "zoom %.0f %%",
              pane == ANG_PANE_VOLUME ? ang_volume_zoom_percent(viewer) : ang_slice_zoom_percent(viewer, pane));
-    cell(status, 76, true, text);
+    cell(status, 92, true, text);
     bool measures = viewer->tool == ANG_TOOL_MEASURE;
     snprintf(text, sizeof text, "tool: %s",
              measures ? ang_measure_kind_name(viewer->measuring.kind) : ang_tool_name(viewer->tool));
