@@ -7,7 +7,7 @@ import os
 import sys
 import time
 
-from PIL import Image, ImageGrab
+from PIL import ImageGrab
 
 from viewer import Viewer
 
@@ -31,8 +31,7 @@ def main():
         picture = ImageGrab.grab(xdisplay=os.environ["DISPLAY"])
         if crop:
             picture = picture.crop(crop)
-        picture.quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(
-            os.path.join(folder, name + ".png"), optimize=True)
+        picture.convert("RGB").save(os.path.join(folder, name + ".png"), optimize=True)
         print(name, flush=True)
 
     def over(pane, dx=0, dy=0):
