@@ -10,7 +10,6 @@ void ang_measuring_next(ang_viewer *viewer, int argument) {
     (void)argument;
     int kind = (int)viewer->measuring.kind + (viewer->tool == ANG_TOOL_MEASURE);
     ang_measuring_take(viewer, (ang_measure_kind)(kind % ANG_MEASURE_KINDS));
-    ang_viewer_say(viewer, false, "Measure: %s", ang_measure_kind_name(viewer->measuring.kind));
 }
 
 bool ang_measures_any(const ang_viewer *viewer) { return viewer->ready && viewer->document.measures.count > 0; }
