@@ -174,7 +174,7 @@ static bool name_phases(const nifti_image *image, ang_series_info *info, ang_err
     return !timed || ang_samples_name_phases(info, (double)image->toffset, (double)image->dt, unit, err);
 }
 
-static ang_volume *load_image(const nifti_image *image, const char *voxels, const char *label,
+static ang_volume *load_image(const nifti_image *image, const char *voxels, uint64_t skip, const char *label,
                               const ang_load_options *options, ang_load_report *report, const ang_progress *progress,
                               ang_error *err) {
     const ang_byte_part part = {.path = voxels};
@@ -189,7 +189,7 @@ static ang_volume *load_image(const nifti_image *image, const char *voxels, cons
                  label, image->datatype, nifti_datatype_string(image->datatype));
         return NULL;
     }
-    source.parts.skip = image->iname_offset > 0 ? (uint64_t)image->iname_offset : 0;
+    source.parts.skip = skip;
     source.dims[0] = image->nx;
     source.dims[1] = image->ny > 0 ? image->ny : 1;
     source.dims[2] = image->nz > 0 ? image->nz : 1;
@@ -209,33 +209,76 @@ static ang_volume *load_image(const nifti_image *image, const char *voxels, cons
     return NULL;
 }
 
+/* Whether a header's numbers are in the other byte order: as the library tells it. */
+static bool is_swapped(const nifti_1_header *header) { return header->dim[0] < 1 || header->dim[0] > 7; }
+
+static float header_float(const nifti_1_header *header, const float *member) {
+    uint32_t bits;
+    float value;
+    memcpy(&bits, member, sizeof bits);
+    if (is_swapped(header)) bits = __builtin_bswap32(bits);
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
 /* What the library would print about: it is asked only where it has nothing to say. */
 static bool is_sound(const nifti_1_header *header) {
     uint16_t dim[2], type;
     memcpy(dim, header->dim, sizeof dim);
     memcpy(&type, &header->datatype, sizeof type);
-    if (dim[0] < 1 || dim[0] > 7) { /* the other byte order */
+    if (is_swapped(header)) {
         dim[0] = __builtin_bswap16(dim[0]);
         dim[1] = __builtin_bswap16(dim[1]);
         type = __builtin_bswap16(type);
     }
-    return dim[0] >= 1 && dim[0] <= 7 && dim[1] >= 1 && dim[1] <= INT16_MAX && type != DT_UNKNOWN && type != DT_BINARY;
+    return dim[0] >= 1 && dim[0] <= 7 && dim[1] >= 1 && dim[1] <= INT16_MAX && nifti_is_valid_datatype(type);
 }
 
-/* Spacings are lengths: where one is negative the library would take 1 mm for it. */
+/* Where the voxels begin, in bytes of their file unpacked. The library would take what is no such place for the end of
+ * the header, where four more bytes are the format's. */
+static bool find_voxels(const nifti_1_header *header, const char *label, uint64_t *skip, ang_load_report *report,
+                        ang_error *err) {
+    bool one_file = header->magic[1] == '+';
+    double offset = (double)header_float(header, &header->vox_offset);
+    double least = one_file ? sizeof *header : 0;
+    if (offset == 0 && one_file) {
+        offset = 352;
+        ang_notes_add(&report->warnings, "vox_offset is 0: its voxels are taken to begin at byte 352");
+    }
+    if (!(offset >= least && offset < 0x1p53 && offset == floor(offset)))
+        return ang_fail(err, ANG_INPUT, "%s: its voxels cannot begin at byte %g (vox_offset)", label, offset);
+    *skip = (uint64_t)offset;
+    return true;
+}
+
+/* Spacings are lengths: where one is negative, 0 or no number the library would take 1 mm for it and say nothing. */
 static void mend_spacings(nifti_1_header *header, ang_load_report *report) {
-    bool negative = false;
+    bool negative = false, unknown = false;
+    int axes = is_swapped(header) ? (int)__builtin_bswap16((uint16_t)header->dim[0]) : header->dim[0];
     for (int axis = 1; axis <= 3; axis++) {
+        float spacing = header_float(header, &header->pixdim[axis]);
+        unknown = unknown || (axis <= axes && !(isfinite(spacing) && spacing != 0));
+        if (!signbit(spacing)) continue;
         uint32_t bits; /* in either byte order: the sign is in the first or the last byte */
         memcpy(&bits, &header->pixdim[axis], sizeof bits);
-        bool swapped = header->sizeof_hdr != (int)sizeof *header;
-        uint32_t sign = swapped ? 0x80U : 0x80000000U;
-        negative = negative || (bits & sign);
-        bits &= ~sign;
+        bits ^= is_swapped(header) ? 0x80U : 0x80000000U;
         memcpy(&header->pixdim[axis], &bits, sizeof bits);
+        negative = true;
     }
     if (negative)
         ang_notes_add(&report->warnings, "a spacing is negative: its amount is taken, and nothing is turned round");
+    if (unknown) ang_notes_add(&report->warnings, "a spacing (pixdim) is 0 or no number: 1 is taken for it");
+}
+
+/* The library would take 0 for what is no number. */
+static void mend_qform(nifti_1_header *header, ang_load_report *report) {
+    const float *const members[] = {&header->quatern_b, &header->quatern_c, &header->quatern_d,
+                                    &header->qoffset_x, &header->qoffset_y, &header->qoffset_z};
+    bool finite = true;
+    for (int i = 0; i < 6; i++) finite = finite && isfinite(header_float(header, members[i]));
+    if (finite || header->qform_code == 0) return;
+    header->qform_code = 0;
+    ang_notes_add(&report->warnings, "its qform holds what is no number and is not used");
 }
 
 ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, ang_load_report *report,
@@ -256,7 +299,13 @@ ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, an
         ang_fail(err, ANG_INPUT, "%s: its voxels should be in a .img file beside it", label);
         return NULL;
     }
+    uint64_t skip = 0;
+    if (!find_voxels(&header, label, &skip, report, err)) {
+        free(voxels);
+        return NULL;
+    }
     mend_spacings(&header, report);
+    mend_qform(&header, report);
     nifti_set_debug_level(0); /* the library complains to stderr otherwise */
     /* The name decides nothing here, the library wants an ending it knows. */
     nifti_image *image = nifti_convert_nhdr2nim(header, header.magic[1] == '+' ? "volume.nii" : "volume.hdr");
@@ -264,7 +313,7 @@ ang_volume *ang_nifti_load(const char *path, const ang_load_options *options, an
     if (!image || image->nx < 1)
         ang_fail(err, ANG_INPUT, "%s: its NIfTI-1 header is damaged", label);
     else
-        volume = load_image(image, voxels, label, options, report, progress, err);
+        volume = load_image(image, voxels, skip, label, options, report, progress, err);
     if (image) nifti_image_free(image);
     free(voxels);
     return volume;

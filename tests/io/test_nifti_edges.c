@@ -100,6 +100,40 @@ static void wrong_spacings(void **state) {
     expect_note("s.nii", true, "its sform is singular");
 }
 
+/* Numbers that are none: told, or refused. */
+static void wrong_numbers(void **state) {
+    (void)state;
+    static const double plain[12] = {-1, 0, 0, 0, 0, -0.75, 0, 0, 0, 0, 2, 0};
+    const float lengths[] = {0, NAN, INFINITY}, not_there[] = {NAN, -352, 100, 352.5F, 1e30F, 1e9F}, unsaid = 0;
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        nifti n = start(1);
+        put_floats(&n, 80, &lengths[i], 1);
+        write_nifti("l.nii", &n, 1);
+        expect_volume("l.nii", 0, plain);
+        expect_note("l.nii", true, "a spacing (pixdim) is 0 or no number: 1 is taken");
+    }
+    nifti n = start(1);
+    put_floats(&n, 268, &lengths[1], 1);
+    put_word(&n, 252, 1);
+    write_nifti("q.nii", &n, 1);
+    expect_note("q.nii", true, "its qform holds what is no number");
+    for (size_t i = 0; i < sizeof not_there / sizeof *not_there; i++) {
+        n = start(1);
+        put_floats(&n, 108, &not_there[i], 1);
+        write_nifti("o.nii", &n, 1);
+        must_fail(FOLDER "/o.nii", ANG_INPUT, not_there[i] == 1e9F ? "do not fit a file" : "cannot begin at byte");
+    }
+    n = start(1);
+    put_floats(&n, 108, &unsaid, 1);
+    write_nifti("o.nii", &n, 1);
+    expect_volume("o.nii", 0, NULL);
+    expect_note("o.nii", true, "vox_offset is 0");
+    n = start(1);
+    put_word(&n, 70, 9999);
+    write_nifti("t.nii", &n, 1);
+    must_fail(FOLDER "/t.nii", ANG_INPUT, "its NIfTI-1 header is damaged");
+}
+
 /* The same file with every number turned over. */
 static void other_byte_order(void **state) {
     (void)state;
@@ -176,6 +210,7 @@ int main(void) {
         cmocka_unit_test(left_handed_qform),
         cmocka_unit_test(sheared_and_mirrored_sform),
         cmocka_unit_test(wrong_spacings),
+        cmocka_unit_test(wrong_numbers),
         cmocka_unit_test(other_byte_order),
         cmocka_unit_test(voxels_point_to_their_header),
         cmocka_unit_test(phases),
