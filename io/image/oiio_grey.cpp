@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <string>
@@ -79,6 +80,15 @@ bool take_form(grey_file &file, const ImageSpec &spec, ang_error *err) {
                     spec.format.c_str());
 }
 
+/* "png" or "tiff" by the first byte, whatever the name; NULL where it is neither. Left to itself the library would try
+ * one format after the other of all that it knows. */
+const char *format_of(const char *path, const void *bytes, size_t size) {
+    char first = 0;
+    bool there = bytes ? size > 0 : Filesystem::read_bytes(path, &first, 1) == 1;
+    if (there && bytes) std::memcpy(&first, bytes, 1);
+    return !there ? nullptr : first == '\x89' ? "png" : first == 'I' || first == 'M' ? "tiff" : nullptr;
+}
+
 /* The library stretches samples of 1 to 7 and 9 to 15 bits over the whole of their type. */
 template <typename number> void unstretch(number *samples, size_t count, int bits) {
     unsigned whole = (1U << (8 * sizeof(number))) - 1, most = (1U << bits) - 1;
@@ -98,9 +108,15 @@ void *ang_grey_open(const char *path, const void *bytes, size_t size, ang_grey_f
             Filesystem::IOProxy *proxy = file->bytes.get();
             wish.attribute("oiio:ioproxy", TypeDesc::PTR, &proxy);
         }
-        file->input = ImageInput::open(path, &wish, file->bytes.get());
-        if (!file->input) {
-            fail_reading(file->label, geterror(), err);
+        const char *format = format_of(path, bytes, size);
+        ImageSpec spec;
+        if (format) file->input = ImageInput::create(format);
+        if (!file->input || !file->input->open(path, spec, wish)) {
+            fail_reading(file->label,
+                         !format       ? "no PNG or TIFF"
+                         : file->input ? file->input->geterror()
+                                       : geterror(),
+                         err);
             return nullptr;
         }
         if (!take_form(*file, file->input->spec(), err)) return nullptr;

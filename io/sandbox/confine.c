@@ -38,12 +38,18 @@ static const int allowed[] = {
     SCMP_SYS(restart_syscall),
 };
 
-/* Libraries ask what their standard output is and how many processors there are, and do without an answer. */
+/* Libraries ask what their standard output is, whether files are there and how many processors, and do without an
+ * answer. */
 static const int refused[] = {SCMP_SYS(newfstatat),
                               SCMP_SYS(fstat),
                               SCMP_SYS(ioctl),
                               SCMP_SYS(lseek),
                               SCMP_SYS(openat),
+                              SCMP_SYS(access),
+                              SCMP_SYS(faccessat),
+                              SCMP_SYS(faccessat2),
+                              SCMP_SYS(readlink),
+                              SCMP_SYS(readlinkat),
                               SCMP_SYS(sched_getaffinity),
                               SCMP_SYS(sched_setaffinity),
                               SCMP_SYS(prctl)};

@@ -106,6 +106,8 @@ static void pages_and_signs(void **state) {
     expect_volume("u.tif", 0, turned);
     write_tiff("s.tiff", 0, 2);
     expect_volume("s.tiff", 0, NULL);
+    write_tiff("s.png", 0, 2); /* its name says nothing of what it is */
+    expect_volume("s.png", 0, NULL);
     write_tiff("wrapped.tif", 0, 1); /* negative values in a file that calls them unsigned */
     write_parts("wrapped.json", "{\"signed\": true}", "", 0);
     expect_volume("wrapped.tif", 0, NULL);
@@ -139,7 +141,9 @@ static void refused(void **state) {
     write_png(FOLDER "/bad/a2.png", 3, 2, 16, 1, samples);
     must_fail(FOLDER "/bad", ANG_INPUT, "a2.png: is 3 x 2 of 16 bit");
     write_parts("bad/a2.png", "\x89PNG\r\n\x1A\n", "damaged", 7);
-    must_fail(FOLDER "/bad", ANG_INPUT, "a2.png");
+    must_fail(FOLDER "/bad", ANG_INPUT, "a2.png: cannot be read as a picture");
+    write_parts("bad/a2.png", "II*", "\0damaged", 8); /* by its content, and by no other than that */
+    must_fail(FOLDER "/bad", ANG_INPUT, "a2.png: cannot be read as a picture");
     static const struct {
         const char *text, *needle;
     } cases[] = {{"{\"spacing\": [1, 1]}", "stack.json:1: spacing must be 3 numbers in brackets"},

@@ -20,6 +20,7 @@ typedef struct unpacking {
     ang_notes *warnings;
     const ang_progress *progress;
     double total, done; /* bytes, unpacked */
+    size_t whole;       /* files that are there as they should be */
     char buffer[piece];
 } unpacking;
 
@@ -157,6 +158,7 @@ static bool unpack_member(unpacking *unpacking, int folder, zip_uint64_t index, 
                            "is twice in the archive or has no name here: left out");
     else if (outcome == DAMAGED || outcome == OTHER_SIZE)
         ang_notes_add_file(unpacking->warnings, last_name(name), "cannot be unpacked (%s): left out", why);
+    unpacking->whole += outcome == WHOLE;
     if (in) zip_fclose(in);
     if (out >= 0) close(out);
     if ((outcome == DAMAGED || outcome == OTHER_SIZE) && out >= 0) unlinkat(folder, name, 0);
@@ -178,7 +180,12 @@ static bool unzip(const char *path, const char *label, const char *folder, ang_n
         *state = (unpacking){.zip = zip, .label = label, .folder = folder, .warnings = warnings, .progress = progress};
         zip_int64_t count = zip_get_num_entries(zip, 0);
         ok = check(state, count, (double)status.st_size, err);
+        size_t told = warnings->count;
         for (zip_int64_t i = 0; ok && i < count; i++) ok = unpack_member(state, below, (zip_uint64_t)i, err);
+        char line[ANG_NOTES_LINE];
+        if (ok && state->whole == 0 && warnings->count > told)
+            ok = ang_fail(err, ANG_INPUT, "%s: nothing of it can be unpacked: %s", label,
+                          ang_notes_line(warnings, told, true, line, sizeof line));
     }
     if (zip) zip_discard(zip);
     free(state);
