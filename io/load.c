@@ -53,12 +53,18 @@ bool ang_load_phase(const char *what, int phases, const ang_load_options *option
     return ang_fail(err, ANG_INPUT, "--phase %d: %s is one volume, phase 1", *phase, what);
 }
 
-/* The phase of the series that was chosen, for formats whose readers know of none. */
+/* The phase of the series that was chosen; DICOM's reader has told of it. */
 static bool note_phase(const ang_load_options *options, ang_load_report *report, ang_error *err) {
     char what[32];
     const ang_series_info *info = &report->series[report->chosen];
     snprintf(what, sizeof what, "series %d", info->number);
-    return ang_load_phase(what, info->phases, options, &report->phase, err);
+    if (!ang_load_phase(what, info->phases, options, &report->phase, err)) return false;
+    const char *text = ang_series_phase_text(info, report->phase);
+    if (info->phases > 1 && strcmp(report->format, "DICOM") != 0)
+        ang_notes_add(&report->assumptions, "phase %d of %d is shown%s%s; %s picks another", report->phase,
+                      info->phases, text[0] ? ", " : "", text,
+                      options->phase_choice ? options->phase_choice : "--phase");
+    return true;
 }
 
 bool ang_load_report_hounsfield(const ang_load_report *report) {

@@ -242,6 +242,8 @@ static bool use_geometry(parsing *p, ang_error *err) {
     if (!p->has_matrix)
         ang_notes_add(&header->warnings, "no TransformMatrix: orientation is not known, x is taken as left, y as "
                                          "posterior, z as superior");
+    if (p->has_matrix && !p->has_offset)
+        ang_notes_add(&header->assumptions, "no Offset: the first voxel is taken to lie at 0,0,0");
     if (p->axes == 2) ang_notes_add(&header->assumptions, "it is a single slice: 1 mm thick");
     bool off_centre = p->has_centre && (p->centre[0] != 0 || p->centre[1] != 0 || (p->axes > 2 && p->centre[2] != 0));
     if (off_centre)

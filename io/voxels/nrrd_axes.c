@@ -42,9 +42,12 @@ static bool use_directions(ang_nrrd_axes *axes, const char *value) {
         }
         if (*value != '(' || !take_vector(&value, vector, &count) || count != axes->space_dimension) return false;
         memcpy(axis->direction, vector, sizeof axis->direction);
-        bool finite = isfinite(vector[0]) && isfinite(vector[1]) && isfinite(vector[2]);
+        int finite = 0, in_space = count < 3 ? count : 3;
+        for (int c = 0; c < in_space; c++) finite += isfinite(vector[c]);
         bool zero = vector[0] == 0 && vector[1] == 0 && vector[2] == 0;
-        axis->has_direction = finite && !zero; /* nothing, or time alone in a space with time */
+        /* All or none are numbers, and 0 is a direction of time alone in a space with time. */
+        if ((finite > 0 && finite < in_space) || (zero && count < 4)) return false;
+        axis->has_direction = finite > 0 && !zero;
     }
     return true;
 }
@@ -317,6 +320,9 @@ bool ang_nrrd_axes_use(const ang_nrrd_axes *axes, const char *label, ang_volume_
             affine.m[row][column] = axis->direction[row] * axes->unit_mm[row];
         affine.m[column][3] = first;
     }
+    if (!axes->has_origin && axes->axis[spatial[0]].has_direction)
+        ang_notes_add(&header->assumptions,
+                      "its header has no \"space origin\": the first voxel is taken to lie at 0,0,0");
     for (int row = 0; row < 3 && axes->has_origin; row++) affine.m[row][3] = axes->origin[row] * axes->unit_mm[row];
     if (count == 2) add_normal(&affine, header);
     to_patient(axes, &affine, header);

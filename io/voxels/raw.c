@@ -152,7 +152,6 @@ ang_volume *ang_raw_load(const char *path, const ang_load_options *options, ang_
                                 .parts = {.part = &part, .count = 1},
                                 .type = form.type,
                                 .slope = 1,
-                                .exact_length = true,
                                 .slices = options->slices};
     memcpy(source.dims, form.dims, sizeof form.dims);
     ang_volume *volume = ang_samples_read(&source, options->threads, report, progress, err);

@@ -245,7 +245,7 @@ ang_volume *ang_samples_read(ang_sample_source *source, int threads, ang_load_re
     reading.buffer = ang_alloc(samples_per_piece, ang_sample_size(source->type), "voxels", err);
     if (reading.buffer) volume = ang_volume_create(source->dims, err);
     bool ok = volume && fill(&reading, volume, report, err);
-    if (ok && source->exact_length && ang_byte_stream_more(reading.stream))
+    if (ok && ang_byte_stream_more(reading.stream))
         ang_notes_add_file(&report->warnings, source->label, "is longer than its voxels; the rest is not used");
     ang_byte_stream_close(reading.stream);
     free(reading.buffer);

@@ -18,14 +18,14 @@ typedef struct ang_sample_source {
     size_t phase_run;        /* samples of a phase in a row before those of the next: 1 where each voxel has its phases
                                 side by side; 0: all of a volume */
     double slope, intercept; /* HU = slope * sample + intercept; slope not 0 */
-    bool exact_length;       /* bytes behind the voxels are worth a warning */
     ang_slice_sink slices;   /* is given some of the planes while they are read */
 } ang_sample_source;
 
 /* A new volume with the identity affine, its padding marked and its range known; fills the values' part of `report`.
  * Types of 8 and 16 bits are kept exactly; others are where they are whole numbers and their range fits 16 bits;
  * otherwise they are quantised over their finite range. Memory: the volume and one buffer. NULL with ANG_INPUT where
- * the file is shorter than the voxels need, which is checked before anything is allocated where the size can tell;
+ * the file is shorter than the voxels need, which is checked before anything is allocated where the size can tell, and
+ * a warning where it is longer;
  * ANG_LIMIT, ANG_INTERRUPTED. */
 ang_volume *ang_samples_read(ang_sample_source *source, int threads, ang_load_report *report,
                              const ang_progress *progress, ang_error *err);

@@ -293,7 +293,7 @@ static void write_nrrd(const char *name, int width, const char *encoding) {
     char text[256];
     int length = snprintf(text, sizeof text,
                           "NRRD0004\ntype: uint8\ndimension: 3\nsizes: %d 1 2\nspace: LPS\nspace directions: (1,0,0) "
-                          "(0,1,0) (0,0,1)\nencoding: %s\n\n0 1 2 3 4 5 6 7",
+                          "(0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: %s\n\n0 1 2 3 4 5 6 7",
                           width, encoding);
     write_file(name, text, (size_t)length);
 }

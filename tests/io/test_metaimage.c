@@ -29,6 +29,9 @@ static void in_one_file(void **state) {
     expect_volume("c.mha", 0, (const double[12]){1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
     expect_note("c.mha", true, "no ElementSpacing");
     expect_note("c.mha", true, "orientation is not known");
+    write_parts("offset.mha", HEAD "TransformMatrix = 1 0 0 0 1 0 0 0 1\nElementDataFile = LOCAL\n", little,
+                2 * voxels);
+    expect_note("offset.mha", false, "no Offset");
     write_parts("size.mha",
                 "NDims = 3\nDimSize = 4 3 2\nElementType = MET_SHORT\nElementSize = 0.5 0.75 2\n" TURNED
                 "ElementDataFile = LOCAL\n",

@@ -189,6 +189,7 @@ static void phases(void **state) {
     assert_int_equal(report.series[0].phases, 4);
     assert_int_equal(report.phase, 3);
     assert_string_equal(ang_series_phase_text(&report.series[0], 3), "time 200 ms");
+    assert_true(told(&report.assumptions, "phase 3 of 4 is shown, time 200 ms; --phase picks another"));
     ang_volume_free(v);
     ang_load_report_clear(&report);
     assert_null(ang_load(FOLDER "/4d.nii", &(ang_load_options){.phase = 5}, &report, NULL, &err));

@@ -26,6 +26,15 @@ static void attached_raw(void **state) {
     expect_volume("b", 0, NULL);
     write_parts("rest.nrrd", HEAD SPACE "encoding: raw\nendian: little\nbyte skip: -1\n\nxxxxx", little, 2 * voxels);
     expect_volume("rest.nrrd", 0, lps);
+    write_parts("longer.nrrd", HEAD SPACE "encoding: raw\nendian: little\n\n", little, 2 * voxels + 2);
+    expect_volume("longer.nrrd", 0, lps);
+    expect_note("longer.nrrd", true, "is longer than its voxels");
+    write_parts("text.nrrd", "NRRD0004\ntype: uchar\n" SIZES "encoding: ascii\n\n1 2 3 4 5 6 7 8 9 10 11 12 ",
+                "13 14 15 16 17 18 19 20 21 22 23 24 \n\n", 38);
+    ang_load_report report;
+    ang_volume_free(load(FOLDER "/text.nrrd", &report));
+    assert_false(told(&report.warnings, "is longer than its voxels"));
+    ang_load_report_clear(&report);
 }
 
 static void spaces_become_lps(void **state) {
@@ -52,6 +61,10 @@ static void spaces_become_lps(void **state) {
         expect_volume("space.nrrd", 0, cases[i].affine);
     }
     expect_note("space.nrrd", true, "orientation is not known");
+    write_parts("origin.nrrd",
+                HEAD "space: LPS\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\nendian: little\n\n", little,
+                2 * voxels);
+    expect_note("origin.nrrd", false, "no \"space origin\"");
 }
 
 static void spacings_without_a_space(void **state) {
@@ -177,6 +190,7 @@ static void phases_on_any_axis(void **state) {
     ang_volume *v = load_phase(FOLDER "/4d.nrrd", 3, &report);
     assert_int_equal(report.series[0].phases, 4);
     assert_int_equal(report.phase, 3);
+    assert_true(told(&report.assumptions, "phase 3 of 4 is shown; --phase picks another"));
     ang_volume_free(v);
     ang_load_report_clear(&report);
     assert_null(ang_load(FOLDER "/4d.nrrd", &(ang_load_options){.phase = 5}, &report, NULL, &err));
@@ -225,6 +239,10 @@ static void refused(void **state) {
          ANG_INPUT},
         {HEAD "space: LPS\nspace directions: (1,0,0) (2,0,0) (0,0,1)\nencoding: raw\nendian: little\n\n", "do not span",
          ANG_GEOMETRY},
+        {HEAD "space: LPS\nspace directions: (0,0,0) (0,1,0) (0,0,1)\nencoding: raw\n\n", "space directions",
+         ANG_INPUT},
+        {HEAD "space: LPS\nspace directions: (1,nan,0) (0,1,0) (0,0,1)\nencoding: raw\n\n", "space directions",
+         ANG_INPUT},
         {HEAD "space: LPS\nspace directions: (1,0) (0,1) (0,0)\nencoding: raw\n\n", "space directions", ANG_INPUT}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         write_parts("bad.nrrd", cases[i].text, "", 0);
