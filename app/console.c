@@ -3,6 +3,7 @@
 #include "core/base/clock.h"
 #include "io/place.h"
 #include "io/preset/preset_own.h"
+#include "io/text.h"
 
 #include <limits.h>
 #include <math.h>
@@ -101,7 +102,9 @@ void ang_app_say(const ang_notes *notes, const char *prefix, const ang_error *er
     for (size_t i = 0; i < notes->count; i++) {
         if (err && strstr(err->message, notes->text[i])) continue;
         char line[ANG_NOTES_LINE];
-        fprintf(stderr, "%s%s\n", prefix, ang_notes_line(notes, i, true, line, sizeof line));
+        ang_notes_line(notes, i, true, line, sizeof line);
+        ang_text_clean(line);
+        fprintf(stderr, "%s%s\n", prefix, line);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "app/verb_table.h"
 #include "app/verbs.h"
+#include "io/text.h"
 
 #include <signal.h>
 #include <stdbool.h>
@@ -62,6 +63,7 @@ static int run_verb(const ang_verb_entry *verb, int argc, char **argv) {
         }
         code = run_entry(verb, &options, &err);
     }
+    ang_text_clean(err.message); /* names and headers of files may hold what moves a terminal's cursor */
     if (code != ANG_OK && err.message[0]) fprintf(stderr, "angioscope: %s\n", err.message);
     return finish(code);
 }

@@ -4,6 +4,7 @@
 #include "app/unused.h"
 #include "app/verbs.h"
 #include "io/preset/preset.h"
+#include "io/text.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -26,6 +27,7 @@ static int list(const char *const *folders, ang_error *err) {
         ang_preset *preset = ang_preset_load(names.paths[i], &broken);
         if (!preset) {
             /* One broken file does not hide the others. */
+            ang_text_clean(broken.message);
             fprintf(stderr, "angioscope: %s\n", broken.message);
             code = (int)broken.code;
             continue;

@@ -55,11 +55,26 @@ static void libraries_keep_quiet(void **state) {
     assert_int_equal(strncmp(output, "angioscope: bad.nii: ", 21), 0);
 }
 
+/* Names and headers of files move no cursor: what is said is one line. */
+static void terminals_are_safe(void **state) {
+    (void)state;
+    static const char header[] = "NRRD0004\ntype: \033[31mred\033[0m\n\n";
+    fresh_folder(FOLDER);
+    FILE *out = fopen(FOLDER "/a\033[2Jb\nc.nrrd", "wb");
+    assert_non_null(out);
+    fwrite(header, 1, sizeof header - 1, out);
+    fclose(out);
+    assert_int_equal(run("info --quiet " FOLDER "/a*c.nrrd 2>&1"), 3);
+    assert_string_equal(output, "angioscope: a?[2Jb?c.nrrd: its NRRD header says \"type: ?[31mred?[0m\", which is not "
+                                "understood\n");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_not_loaded_is_listed),
         cmocka_unit_test(wrong_raw_options_give_two),
         cmocka_unit_test(libraries_keep_quiet),
+        cmocka_unit_test(terminals_are_safe),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
