@@ -148,6 +148,20 @@ static void note_patients(const ang_dicom_listing *listing, const ang_dicom_slic
                       "%zu of %zu images are another patient's than the series that is shown", others, count);
 }
 
+/* A series of mixed planes: what is shown is not all of it. */
+static void note_other_planes(const ang_dicom_listing *listing, const ang_dicom_slice *shown, ang_load_report *report) {
+    size_t others = 0;
+    for (size_t i = 0; i < listing->folder.slice_count; i++) {
+        const ang_dicom_slice *slice = &listing->folder.slices[i];
+        others += slice->image && strcmp(slice->series_uid, shown->series_uid) == 0 &&
+                  ang_dicom_same_patient(shown, slice) && !ang_dicom_same_planes(shown, slice);
+    }
+    if (others > 0)
+        ang_notes_add(&report->assumptions,
+                      "%zu image%s of this series differ%s in size, orientation or spacing: listed apart", others,
+                      ang_plural((long long)others), others == 1 ? "s" : "");
+}
+
 /* What was left out of the group that is shown, and what of it is only assumed. */
 static void note_choice(const ang_dicom_listing *listing, size_t chosen, const ang_load_options *options,
                         ang_load_report *report) {
@@ -159,6 +173,7 @@ static void note_choice(const ang_dicom_listing *listing, size_t chosen, const a
                       group->series, groups->series_count, strcmp(first->modality, "CT") == 0 ? "CT" : "image",
                       options->series_choice ? options->series_choice : "--series");
     note_patients(listing, first, options->series != NULL, report);
+    note_other_planes(listing, first, report);
     if (group->duplicates > 0)
         ang_notes_add(&report->assumptions, "%d slice%s with the same %s and pixels as another: dropped",
                       group->duplicates, ang_plural(group->duplicates),

@@ -40,18 +40,22 @@ bool ang_dicom_same_patient(const ang_dicom_slice *a, const ang_dicom_slice *b) 
     return !a->patient[0] || !b->patient[0] || strcmp(a->patient, b->patient) == 0;
 }
 
-/* Whether two slices of one series may belong to one volume (rule 1). */
-static bool alike(const ang_dicom_slice *a, const ang_dicom_slice *b) {
-    if (strcmp(a->refusal, b->refusal) != 0 || a->image != b->image) return false;
-    if (!a->image) return true;
-    if (!ang_dicom_same_patient(a, b)) return false; /* one UID for two, as careless de-identification leaves it */
-    if (a->rows != b->rows || a->columns != b->columns || !same_image_type(a, b)) return false;
-    if (strcmp(a->stack_id, b->stack_id) != 0 || strcmp(a->modality, b->modality) != 0) return false;
+bool ang_dicom_same_planes(const ang_dicom_slice *a, const ang_dicom_slice *b) {
+    if (a->rows != b->rows || a->columns != b->columns) return false;
     if (a->has_orientation != b->has_orientation || a->has_position != b->has_position) return false;
     if (a->has_orientation && (!near_vectors(a->row, b->row) || !near_vectors(a->column, b->column))) return false;
     if (a->has_spacing != b->has_spacing) return false;
     return !a->has_spacing || (fabs(a->row_spacing - b->row_spacing) <= 1e-4 * a->row_spacing &&
                                fabs(a->column_spacing - b->column_spacing) <= 1e-4 * a->column_spacing);
+}
+
+/* Whether two slices of one series may belong to one volume (rule 1). */
+static bool alike(const ang_dicom_slice *a, const ang_dicom_slice *b) {
+    if (strcmp(a->refusal, b->refusal) != 0 || a->image != b->image) return false;
+    if (!a->image) return true;
+    if (!ang_dicom_same_patient(a, b)) return false; /* one UID for two, as careless de-identification leaves it */
+    if (strcmp(a->stack_id, b->stack_id) != 0 || strcmp(a->modality, b->modality) != 0) return false;
+    return same_image_type(a, b) && ang_dicom_same_planes(a, b);
 }
 
 /* A new group that takes `order` over, also where it fails. */

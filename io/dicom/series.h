@@ -35,6 +35,9 @@ typedef struct ang_dicom_groups {
 /* Whether two slices may be of one patient: by PatientID, by PatientName where one has no ID. */
 bool ang_dicom_same_patient(const ang_dicom_slice *a, const ang_dicom_slice *b);
 
+/* Whether two images are alike in size, orientation and spacing, whatever they show. */
+bool ang_dicom_same_planes(const ang_dicom_slice *a, const ang_dicom_slice *b);
+
 /* How the pixels of two slices compare. */
 typedef enum ang_dicom_likeness {
     ANG_DICOM_SAME,

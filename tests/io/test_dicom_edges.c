@@ -74,6 +74,11 @@ static void test_mixed_orientations(void **state) {
     assert_int_equal(v->dims[2], 4);
     assert_false(report.series[2].loadable);
     assert_non_null(strstr(report.series[2].remark, "localizer"));
+    bool told = false;
+    for (size_t i = 0; i < report.assumptions.count; i++)
+        told = told || strcmp(report.assumptions.text[i], "4 images of this series differ in size, orientation or "
+                                                          "spacing: listed apart") == 0;
+    assert_true(told);
     finish(v, &report);
     ang_error err = {0};
     v = ang_load(FOLDER, &(ang_load_options){.series = "2"}, &report, NULL, &err);
