@@ -190,6 +190,7 @@ static ang_volume *dispatch(const char *const *paths, size_t count, const ang_lo
 /* Numbers that are finite and yet none of a scan: everything after this may count on sensible ones. */
 static bool check_numbers(const ang_volume *volume, const char *label, ang_error *err) {
     static const double least_slope = 1e-30, least_spacing = 1e-6, most_spacing = 1e6; /* floats hold their powers */
+    static const double most_place = 1e6; /* mm from the origin of LPS, as stack.json may say */
     double low = ang_volume_hu(volume, volume->minimum), high = ang_volume_hu(volume, volume->maximum);
     if (!isfinite(low) || !isfinite(high))
         return ang_fail(err, ANG_INPUT, "%s: its values are no numbers; is the rescale right?", label);
@@ -203,7 +204,8 @@ static bool check_numbers(const ang_volume *volume, const char *label, ang_error
     bool sound = ang_mat4_inverse(&volume->affine, &inverse);
     for (int axis = 0; axis < 3; axis++) {
         double spacing = ang_volume_spacing(volume, axis);
-        sound = sound && spacing >= least_spacing && spacing <= most_spacing && isfinite(volume->affine.m[axis][3]);
+        sound = sound && spacing >= least_spacing && spacing <= most_spacing &&
+                fabs(volume->affine.m[axis][3]) <= most_place;
     }
     return sound ||
            ang_fail(err, ANG_GEOMETRY,

@@ -237,12 +237,12 @@ ang_volume *ang_dicom_load(const char *const *paths, size_t count, const ang_loa
     ang_volume *volume = NULL;
     size_t chosen = 0;
     ang_error why = {0};
-    if (choose(&listing, options, report, &chosen, &why))
-        volume = load_chosen(&listing, chosen, options, report, progress, err);
-    else if (options->series || options->phase)
-        ang_fail(err, why.code, "%s", why.message);
-    else
-        ang_fail(err, why.code, "%s: %s", ang_base_name(paths[0]), why.message);
+    bool found = choose(&listing, options, report, &chosen, &why);
+    if (found) volume = load_chosen(&listing, chosen, options, report, progress, &why);
+    /* Where slices lie is the matter of no file of them alone. */
+    bool unnamed = found ? why.code == ANG_GEOMETRY || why.code == ANG_LIMIT : !options->series && !options->phase;
+    if (!volume)
+        ang_fail(err, why.code, "%s%s%s", unnamed ? ang_base_name(paths[0]) : "", unnamed ? ": " : "", why.message);
     ang_dicom_listing_clear(&listing);
     return volume;
 }

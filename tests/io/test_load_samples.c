@@ -170,17 +170,24 @@ static void nifti_header(uint8_t h[352], const int16_t dim[8], int type, int bit
 static void test_absurd_numbers_are_refused(void **state) {
     (void)state;
     static const struct {
-        const char *slope, *intercept, *spacing;
+        const char *slope, *intercept, *spacing, *position, *orientation;
         ang_code code;
-    } cases[] = {{"1e300", "0", NULL, ANG_INPUT},     {"1e308", "1e308", NULL, ANG_INPUT},
-                 {"1e-300", "0", NULL, ANG_INPUT},    {"1", "-1e10", NULL, ANG_INPUT},
-                 {"1", "0", "1e30\\1", ANG_GEOMETRY}, {"1", "0", "1e-30\\1", ANG_GEOMETRY}};
+    } cases[] = {{"1e300", "0", .code = ANG_INPUT},
+                 {"1e308", "1e308", .code = ANG_INPUT},
+                 {"1e-300", "0", .code = ANG_INPUT},
+                 {"1", "-1e10", .code = ANG_INPUT},
+                 {"1", "0", "1e30\\1", .code = ANG_GEOMETRY},
+                 {"1", "0", "1e-30\\1", .code = ANG_GEOMETRY},
+                 {"1", "0", .position = "0\\-1e30\\0", .code = ANG_GEOMETRY},
+                 {"1", "0", .orientation = "1\\0\\0\\1\\0\\0", .code = ANG_GEOMETRY}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         fresh_folder(FOLDER);
         form f = form_at(0, 1000);
         f.slope = cases[i].slope;
         f.intercept = cases[i].intercept;
         f.spacing = cases[i].spacing;
+        if (cases[i].position) f.position = cases[i].position;
+        f.orientation = cases[i].orientation;
         small("a", &f);
         must_fail(FOLDER "/a", cases[i].code, "a: ");
     }
