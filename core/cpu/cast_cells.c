@@ -2,6 +2,7 @@
  * smooth cubic, so that its values at the two faces and in the middle, from one fetch of the cell's voxels, tell it as
  * well as many samples of equal steps do; what the transfer function does between them is integrated
  * (core/transfer/means.h, docs/adaptive.md). Compiled once for each width: core/CMakeLists.txt. */
+#define LANES_PUT_OFF
 #include "core/cpu/cast_rays.h"
 #include "core/cpu/cast_shade.h"
 
@@ -416,13 +417,6 @@ INLINE void cast_rays(const ang_cast *cast, tile *t, ang_cast_kind kind) {
     note_rest(cast, t, &s);
 }
 
-static void put_pixel(const ang_cast *cast, const tile *t, int ray, size_t pixel) {
-    float *rgba = cast->rgba + 4 * pixel;
-    if (cast->counts) cast->counts[pixel] = t->taken[ray];
-    memcpy(rgba, t->light[ray], 3 * sizeof *rgba);
-    rgba[3] = t->state[ray];
-}
-
 void CAST_CELLS(const ang_cast *given, int x, int y, ang_cast_took *took) {
     /* Of a copy the compiler knows that nothing else writes to it. */
     const ang_cast copy = *given, *cast = &copy;
@@ -436,11 +430,5 @@ void CAST_CELLS(const ang_cast *given, int x, int y, ang_cast_took *took) {
         cast_rays(cast, &t, ANG_CAST_LIGHT_PHONG);
     else
         cast_rays(cast, &t, ANG_CAST_LIGHT);
-    for (int ray = 0; ray < RAYS; ray++) {
-        int px = x + ray_x(ray), py = y + ray_y(ray);
-        if (px >= cast->width || py >= cast->height) continue;
-        put_pixel(cast, &t, ray, (size_t)py * (size_t)cast->width + (size_t)px);
-        took->samples += (uint64_t)t.taken[ray];
-        took->rays += t.taken[ray] > 0;
-    }
+    put_tile(cast, &t, x, y, took);
 }

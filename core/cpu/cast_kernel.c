@@ -329,35 +329,6 @@ INLINE void cast_rays(const ang_cast *cast, tile *t, ang_cast_kind kind, ang_cas
     if (kind == ANG_CAST_SURFACE) find_surfaces(cast, t);
 }
 
-static void put_pixel(const ang_cast *cast, const tile *t, int ray, size_t pixel) {
-    float *rgba = cast->rgba + 4 * pixel;
-    if (cast->counts) cast->counts[pixel] = t->taken[ray];
-    if (!(t->count[ray] > 0)) {
-        memset(rgba, 0, 4 * sizeof *rgba);
-        return;
-    }
-    switch (cast->kind) {
-    case ANG_CAST_LIGHT:
-    case ANG_CAST_LIGHT_PHONG:
-    case ANG_CAST_WHOLE:
-    case ANG_CAST_WHOLE_PHONG:
-        memcpy(rgba, t->light[ray], 3 * sizeof *rgba);
-        rgba[3] = t->state[ray];
-        return;
-    case ANG_CAST_SURFACE:
-        memcpy(rgba, t->light[ray], 4 * sizeof *rgba);
-        return;
-    case ANG_CAST_HIGHEST:
-    case ANG_CAST_LOWEST:
-    case ANG_CAST_MEAN:
-    case ANG_CAST_MEAN_WEIGHTED:
-        break;
-    }
-    float grey = fminf(fmaxf((t->state[ray] - cast->window_lower) * cast->window_scale, 0), 1);
-    rgba[0] = rgba[1] = rgba[2] = grey;
-    rgba[3] = 1;
-}
-
 /* The pixels of a tile. `kind` is a constant. */
 INLINE void cast_tile(const ang_cast *given, ang_cast_kind kind, int x, int y, ang_cast_took *took) {
     /* Of a copy the compiler knows that nothing else writes to it. */
@@ -370,13 +341,7 @@ INLINE void cast_tile(const ang_cast *given, ang_cast_kind kind, int x, int y, a
     memset(t.light, 0, sizeof t.light);
     for (int ray = 0; ray <= RAYS; ray++) t.state[ray] = nothing;
     cast_rays(cast, &t, kind, took);
-    for (int ray = 0; ray < RAYS; ray++) {
-        int px = x + ray_x(ray), py = y + ray_y(ray);
-        if (px >= cast->width || py >= cast->height) continue;
-        put_pixel(cast, &t, ray, (size_t)py * (size_t)cast->width + (size_t)px);
-        took->samples += (uint64_t)t.taken[ray];
-        took->rays += t.taken[ray] > 0;
-    }
+    put_tile(cast, &t, x, y, took);
 }
 
 /* A function for each kind: compilers do worse on one large function (by a tenth, GCC 12). */

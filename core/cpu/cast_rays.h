@@ -4,7 +4,9 @@
 
 #include "core/cpu/cast_field.h"
 
+#include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 enum {
     TILE = ANG_CAST_TILE,
@@ -355,6 +357,46 @@ INLINE void keep_unfinished(tile *t) {
     for (int a = 0; a < t->actives; a++)
         if (t->begin[t->active[a]] < t->end[t->active[a]]) t->active[kept++] = t->active[a];
     t->actives = kept;
+}
+
+static void put_pixel(const ang_cast *cast, const tile *t, int ray, size_t pixel) {
+    float *rgba = cast->rgba + 4 * pixel;
+    if (cast->counts) cast->counts[pixel] = t->taken[ray];
+    if (!(t->count[ray] > 0)) {
+        memset(rgba, 0, 4 * sizeof *rgba);
+        return;
+    }
+    switch (cast->kind) {
+    case ANG_CAST_LIGHT:
+    case ANG_CAST_LIGHT_PHONG:
+    case ANG_CAST_WHOLE:
+    case ANG_CAST_WHOLE_PHONG:
+        memcpy(rgba, t->light[ray], 3 * sizeof *rgba);
+        rgba[3] = t->state[ray];
+        return;
+    case ANG_CAST_SURFACE:
+        memcpy(rgba, t->light[ray], 4 * sizeof *rgba);
+        return;
+    case ANG_CAST_HIGHEST:
+    case ANG_CAST_LOWEST:
+    case ANG_CAST_MEAN:
+    case ANG_CAST_MEAN_WEIGHTED:
+        break;
+    }
+    float grey = fminf(fmaxf((t->state[ray] - cast->window_lower) * cast->window_scale, 0), 1);
+    rgba[0] = rgba[1] = rgba[2] = grey;
+    rgba[3] = 1;
+}
+
+/* What the rays of the tile at (x, y) have come to, and what that took. */
+INLINE void put_tile(const ang_cast *cast, const tile *t, int x, int y, ang_cast_took *took) {
+    for (int ray = 0; ray < RAYS; ray++) {
+        int px = x + ray_x(ray), py = y + ray_y(ray);
+        if (px >= cast->width || py >= cast->height) continue;
+        put_pixel(cast, t, ray, (size_t)py * (size_t)cast->width + (size_t)px);
+        took->samples += (uint64_t)t->taken[ray];
+        took->rays += t->taken[ray] > 0;
+    }
 }
 
 #endif

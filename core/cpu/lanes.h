@@ -204,8 +204,11 @@ INLINE void lanes_transpose_back(const lanes in[4], float out[4 * LANES]) {
 /* Keeps the compiler from taking the numbers out of the register one by one, which is slower than to store them all. */
 #define LANES_IN_MEMORY(places) __asm__("" : "+m"(places))
 
-/* Keeps the compiler from putting off the loads that make `x`, with all their addresses, to where it is used. */
-#if defined(__AVX512F__)
+/* Keeps the compiler from putting off the loads that make `x`, with all their addresses, to where it is used. Not where
+ * LANES_PUT_OFF is defined before this file is included: where much else is held in registers that is faster. */
+#if defined(LANES_PUT_OFF)
+#define LANES_LOADED(x) (void)(x)
+#elif defined(__AVX512F__)
 #define LANES_LOADED(x) __asm__("" : "+v"(x))
 #elif defined(__SSE2__)
 #define LANES_LOADED(x) __asm__("" : "+x"(x))
